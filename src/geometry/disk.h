@@ -1,0 +1,22 @@
+// Disk, or ring, in the plane y = 0 about the origin; its normal is +y.
+#pragma once
+
+#include <optional>
+
+#include "base/fields.h"
+#include "geometry/shape.h"
+
+namespace crescente::geometry {
+
+struct Disk {
+    double radius = 1, inner_radius = 0;
+
+    Bounds bounds() const;
+    std::uint32_t parts() const { return 1; }
+    Bounds part_bounds(std::uint32_t) const { return bounds(); }
+    std::optional<ShapeHit> intersect(std::uint32_t part, const Ray& ray) const;
+    SurfacePoint surface(std::uint32_t primitive, Vec3 position) const;
+    static const FieldTable<Disk>& fields();
+};
+
+}  // namespace crescente::geometry

@@ -1,0 +1,41 @@
+// The table of shapes. Adding one: a file pair beside this one, and one line in each list here.
+#pragma once
+
+#include <string_view>
+#include <variant>
+
+#include "geometry/box.h"
+#include "geometry/cone.h"
+#include "geometry/cylinder.h"
+#include "geometry/disk.h"
+#include "geometry/mesh.h"
+#include "geometry/plane.h"
+#include "geometry/polygon.h"
+#include "geometry/sphere.h"
+#include "geometry/torus.h"
+
+namespace crescente::geometry {
+
+using Shape = std::variant<Sphere, Box, Cone, Cylinder, Torus, Disk, Plane, Polygon, Mesh>;
+
+// Names in files, in the order of the variant.
+inline constexpr std::string_view shape_names[] = {"sphere", "box", "cone", "cylinder", "torus", "disk", "plane", "polygon", "mesh"};
+static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
+
+inline Bounds bounds(const Shape& shape) {
+    return std::visit([](const auto& s) { return s.bounds(); }, shape);
+}
+inline std::uint32_t parts(const Shape& shape) {
+    return std::visit([](const auto& s) { return s.parts(); }, shape);
+}
+inline Bounds part_bounds(const Shape& shape, std::uint32_t part) {
+    return std::visit([=](const auto& s) { return s.part_bounds(part); }, shape);
+}
+inline std::optional<ShapeHit> intersect(const Shape& shape, std::uint32_t part, const Ray& ray) {
+    return std::visit([&](const auto& s) { return s.intersect(part, ray); }, shape);
+}
+inline SurfacePoint surface(const Shape& shape, std::uint32_t primitive, Vec3 position) {
+    return std::visit([=](const auto& s) { return s.surface(primitive, position); }, shape);
+}
+
+}  // namespace crescente::geometry

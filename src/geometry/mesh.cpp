@@ -1,0 +1,71 @@
+#include "geometry/mesh.h"
+
+namespace crescente::geometry {
+
+Bounds Mesh::bounds() const {
+    Bounds box;
+    for (const auto& triangle : triangles) {
+        for (const std::uint32_t i : triangle) box.include(positions[i]);
+    }
+    return box;
+}
+
+Bounds Mesh::part_bounds(std::uint32_t part) const {
+    Bounds box;
+    for (const std::uint32_t i : triangles[part]) box.include(positions[i]);
+    return box;
+}
+
+// Signed volumes of the ray with each edge (Plücker coordinates; Shoup 1998, Woop et al. 2013). For two triangles that share an
+// edge they are exact negatives of each other, so that no ray passes between them.
+std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) const {
+    const auto& triangle = triangles[part];
+    const Vec3 a = positions[triangle[0]] - ray.origin;
+    const Vec3 b = positions[triangle[1]] - ray.origin;
+    const Vec3 c = positions[triangle[2]] - ray.origin;
+    const double u = dot(cross(c, b), ray.direction);
+    const double v = dot(cross(a, c), ray.direction);
+    const double w = dot(cross(b, a), ray.direction);
+    const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+    if (!inside) return std::nullopt;
+    const Vec3 normal = cross(b - a, c - a);
+    const double t = dot(a, normal) / dot(ray.direction, normal);  // NaN for a degenerate triangle: rejected below
+    if (t > ray.t_min && t <= ray.t_max) return ShapeHit{t, part};
+    return std::nullopt;
+}
+
+SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {
+    const auto& triangle = triangles[primitive];
+    const Vec3 a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
+    const Vec3 ab = b - a, ac = c - a, ap = position - a;
+    const Vec3 normal = cross(ab, ac);
+    const double area2 = dot(normal, normal);
+    SurfacePoint point;
+    point.normal = normal / std::sqrt(area2);
+    point.position = position - point.normal * dot(point.normal, ap);
+    point.error = 16 * std::numeric_limits<double>::epsilon() *
+                  std::max({max_component(abs(a)), max_component(abs(b)), max_component(abs(c))});
+    point.u = std::clamp(dot(cross(ap, ac), normal) / area2, 0.0, 1.0);
+    point.v = std::clamp(dot(cross(ab, ap), normal) / area2, 0.0, 1.0 - point.u);
+    point.shading_normal = point.normal;
+    if (!normals.empty()) {
+        const bool per_corner = normals.size() == 3 * triangles.size();
+        const double weights[3] = {1.0 - point.u - point.v, point.u, point.v};
+        Vec3 sum;
+        for (int k = 0; k < 3; ++k) {
+            const auto& n = normals[per_corner ? 3 * std::size_t{primitive} + k : triangle[k]];
+            sum += Vec3{n[0], n[1], n[2]} * weights[k];
+        }
+        const double l = length(sum);
+        if (l > 0) point.shading_normal = sum / l;
+    }
+    point.slot = slots.empty() ? 0 : slots[primitive];
+    return point;
+}
+
+const FieldTable<Mesh>& Mesh::fields() {
+    static const FieldTable<Mesh> table;
+    return table;
+}
+
+}  // namespace crescente::geometry

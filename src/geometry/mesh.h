@@ -1,0 +1,28 @@
+// Triangle mesh with shared vertices, optional smooth normals and a material slot for each triangle.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/fields.h"
+#include "geometry/shape.h"
+
+namespace crescente::geometry {
+
+struct Mesh {
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into positions, counter-clockwise from outside
+    // Normals at the corners, unit length: empty, one for each position, or one for each corner (3 x triangles).
+    std::vector<std::array<float, 3>> normals;
+    std::vector<std::uint16_t> slots;  // material slot of each triangle; empty: all 0
+
+    Bounds bounds() const;
+    std::uint32_t parts() const { return static_cast<std::uint32_t>(triangles.size()); }
+    Bounds part_bounds(std::uint32_t part) const;
+    std::optional<ShapeHit> intersect(std::uint32_t part, const Ray& ray) const;
+    SurfacePoint surface(std::uint32_t primitive, Vec3 position) const;
+    static const FieldTable<Mesh>& fields();  // none: a mesh comes from a file, or as the arrays that io/ reads
+};
+
+}  // namespace crescente::geometry

@@ -1,0 +1,22 @@
+// Sphere about the origin.
+#pragma once
+
+#include <optional>
+
+#include "base/fields.h"
+#include "geometry/shape.h"
+
+namespace crescente::geometry {
+
+struct Sphere {
+    double radius = 1;
+
+    Bounds bounds() const { return {{-radius, -radius, -radius}, {radius, radius, radius}}; }
+    std::uint32_t parts() const { return 1; }
+    Bounds part_bounds(std::uint32_t) const { return bounds(); }
+    std::optional<ShapeHit> intersect(std::uint32_t part, const Ray& ray) const;
+    SurfacePoint surface(std::uint32_t primitive, Vec3 position) const;
+    static const FieldTable<Sphere>& fields();
+};
+
+}  // namespace crescente::geometry

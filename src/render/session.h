@@ -1,0 +1,92 @@
+// The face of the engine, used alike by the command line, the viewer, Python and the cluster.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+
+namespace crescente::render {
+
+// When advance() must come back. Work is done in quanta of at most about 2 ms.
+struct Deadline {
+    std::chrono::steady_clock::time_point at = std::chrono::steady_clock::time_point::max();
+    const std::atomic<bool>* stop = nullptr;  // set by another thread, or a signal handler, to come back at once
+
+    static Deadline never() { return {}; }
+    static Deadline in(std::chrono::nanoseconds time) { return {std::chrono::steady_clock::now() + time, nullptr}; }
+    bool passed() const { return (stop && stop->load(std::memory_order_relaxed)) || std::chrono::steady_clock::now() >= at; }
+};
+
+// Counters of everything done so far.
+struct RayCounts {
+    std::uint64_t camera = 0, reflected = 0, refracted = 0, shadow = 0;
+    std::uint64_t total() const { return camera + reflected + refracted + shadow; }
+};
+struct TestCounts {
+    std::uint64_t box_tests = 0, shape_tests = 0;      // box tests: kay-kajiya only
+    std::uint64_t shadow_cache_hits = 0;
+    std::uint64_t shortcut_rays = 0, shortcut_wrong = 0;  // coherent sub-pixel rays: tried, and how often the first answer was not the nearest
+};
+struct LevelStats {
+    std::string name;
+    double seconds = 0;  // time in which any thread worked on the level
+    RayCounts rays;
+};
+struct Stats {
+    RayCounts rays;
+    TestCounts tests;
+    std::vector<LevelStats> levels;
+    std::uint64_t nodes = 0;           // kept now
+    std::uint64_t forest_bytes = 0;    // kept now
+    std::uint64_t peak_forest_bytes = 0;
+    std::uint64_t accelerator_bytes = 0;
+    std::uint64_t dropped_tiles = 0;   // states given up under the memory ceiling
+    double bytes_per_pixel = 0;        // of the forest, at its peak
+    double render_seconds = 0;         // inside advance()
+    double build_seconds = 0;          // acceleration structure
+    int threads = 0;
+};
+
+struct Progress {
+    bool done = false;
+    std::string level;      // what is being worked on
+    double fraction = 0;    // of the whole picture, 0..1, never falls
+    bool first_picture = false;  // the coarsest grid covers the whole frame: picture() is whole
+};
+
+class Session {
+public:
+    // Builds the acceleration structure. The scene must be valid and have a camera. Errors: a setting that this build
+    // cannot serve, not enough memory.
+    static Expected<Session> open(scene::Scene scene);
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;
+    ~Session();
+
+    // Does the most influential pending work until the deadline.
+    Progress advance(const Deadline& deadline);
+
+    // The picture so far, whole at any moment: layer "color" only, or with all layers (see scene/image.h).
+    scene::Image picture(bool all_layers = false) const;
+
+    Stats stats() const;
+    const scene::Scene& scene() const;
+
+    // The ray trees of a pixel's corners as text: rays, hits, influences, light by light. x and y count from the top left.
+    // Empty if the pixel is outside the picture. Traces nothing; under a memory ceiling the tile is recomputed first.
+    std::string describe(int x, int y);
+
+private:
+    struct State;
+    explicit Session(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace crescente::render

@@ -1,0 +1,115 @@
+// The field tables of what a scene file can say: the one source of names, units, ranges and doc lines.
+#include "scene/scene.h"
+
+namespace crescente::scene {
+
+const FieldTable<ClassicMaterial>& ClassicMaterial::fields() {
+    using M = ClassicMaterial;
+    static const FieldTable<M> table{
+        field(&M::ambient, {"ambient", FieldType::color, "", 0, unbounded, "Radiance added whatever the light"}),
+        field(&M::diffuse, {"diffuse", FieldType::color, "", 0, 1, "Share of light scattered evenly (Lambert)"}),
+        field(&M::specular, {"specular", FieldType::color, "", 0, unbounded, "Strength of the highlights of lights"}),
+        field(&M::highlight, {"highlight", FieldType::choice, "", 0, 1, "Form of the highlight", {"phong", "blinn"}}),
+        field(&M::shininess, {"shininess", FieldType::number, "", 0, 1e7, "Exponent of the highlight: the larger, the smaller the spot"}),
+        field(&M::reflection, {"reflection", FieldType::color, "", 0, 1, "Share of the mirrored ray"}),
+        field(&M::transmission, {"transmission", FieldType::color, "", 0, 1, "Share of the refracted ray, and of light passing in shadows"}),
+        field(&M::ior, {"ior", FieldType::number, "", 0.1, 10, "Index of refraction; 1 lets rays pass straight"}),
+        field(&M::attenuation, {"attenuation", FieldType::color, "1/m", 0, unbounded, "Absorption inside the material"}),
+        field(&M::fresnel, {"fresnel", FieldType::boolean, "", 0, 1, "Reflection and transmission follow Fresnel's equations"}),
+        field(&M::emission, {"emission", FieldType::color, "", 0, unbounded, "Radiance of its own"}),
+    };
+    return table;
+}
+
+const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
+    using M = PhysicalMaterial;
+    static const FieldTable<M> table{
+        field(&M::base_color, {"base_color", FieldType::color, "", 0, 1, "Albedo of a dielectric, reflectance of a metal"}),
+        field(&M::metallic, {"metallic", FieldType::number, "", 0, 1, "0: dielectric, 1: metal"}),
+        field(&M::roughness, {"roughness", FieldType::number, "", 0, 1, "0: mirror-like, 1: matt"}),
+        field(&M::emissive, {"emissive", FieldType::color, "", 0, unbounded, "Radiance of its own"}),
+        field(&M::ior, {"ior", FieldType::number, "", 1, 10, "Index of refraction"}),
+        field(&M::transmission, {"transmission", FieldType::number, "", 0, 1, "Share of light that enters and is refracted"}),
+        field(&M::attenuation, {"attenuation", FieldType::color, "1/m", 0, unbounded, "Absorption inside the material"}),
+        field(&M::opacity, {"opacity", FieldType::number, "", 0, 1, "Coverage; the rest passes straight on"}),
+        field(&M::double_sided, {"double_sided", FieldType::boolean, "", 0, 1, "Seen from both sides"}),
+    };
+    return table;
+}
+
+const FieldTable<Light>& Light::fields() {
+    static const FieldTable<Light> table{
+        field(&Light::kind, {"kind", FieldType::choice, "", 0, 1, "What shines", {"point", "directional"}}),
+        field(&Light::position, {"position", FieldType::vector, "m", -unbounded, unbounded, "Place of a point light"}),
+        field(&Light::direction, {"direction", FieldType::vector, "", -unbounded, unbounded, "Where it shines"}),
+        field(&Light::color, {"color", FieldType::color, "", 0, unbounded, "Linear RGB"}),
+        field(&Light::intensity, {"intensity", FieldType::number, "cd|lx", 0, unbounded, "Candela for points, lux for directions"}),
+        field(&Light::inner_angle, {"inner_angle", FieldType::angle, "deg", 0, 180, "Half angle of the cone of full light"}),
+        field(&Light::outer_angle, {"outer_angle", FieldType::angle, "deg", 0, 180, "Half angle of the cone of any light; 180: all around"}),
+        field(&Light::gradient, {"gradient", FieldType::choice, "", 0, 2, "Transition between the cones", {"smooth", "linear", "power"}}),
+        field(&Light::exponent, {"exponent", FieldType::number, "", 0, 1e4, "Concentration of the power gradient"}),
+        field(&Light::falloff, {"falloff", FieldType::choice, "", 0, 2, "Influence over distance", {"none", "inverse_square", "classic"}}),
+        field(&Light::constant, {"constant", FieldType::number, "", 0, unbounded, "Classic falloff, constant term"}),
+        field(&Light::linear, {"linear", FieldType::number, "1/m", 0, unbounded, "Classic falloff, linear term"}),
+        field(&Light::quadratic, {"quadratic", FieldType::number, "1/m^2", 0, unbounded, "Classic falloff, quadratic term"}),
+        field(&Light::range, {"range", FieldType::number, "m", 0, unbounded, "Distance at which the light ends; 0: none"}),
+        field(&Light::shadows, {"shadows", FieldType::boolean, "", 0, 1, "Objects stand in its way"}),
+        field(&Light::highlights, {"highlights", FieldType::boolean, "", 0, 1, "Makes highlights"}),
+    };
+    return table;
+}
+
+const FieldTable<Camera>& Camera::fields() {
+    static const FieldTable<Camera> table{
+        field(&Camera::projection, {"projection", FieldType::choice, "", 0, 1, "Kind of view", {"perspective", "orthographic"}}),
+        field(&Camera::position, {"position", FieldType::vector, "m", -unbounded, unbounded, "Where the viewer stands"}),
+        field(&Camera::target, {"target", FieldType::vector, "m", -unbounded, unbounded, "What the viewer looks at"}),
+        field(&Camera::up, {"up", FieldType::vector, "", -unbounded, unbounded, "Which way is up in the picture"}),
+        field(&Camera::field_of_view, {"field_of_view", FieldType::angle, "deg", 0.001, 179, "Vertical angle of a perspective view"}),
+        field(&Camera::height, {"height", FieldType::number, "m", 0, unbounded, "Vertical extent of an orthographic view"}),
+        field(&Camera::pixel_aspect, {"pixel_aspect", FieldType::number, "", 0.01, 100, "Width of a pixel over its height"}),
+        field(&Camera::near, {"near", FieldType::number, "m", 0, unbounded, "Nothing nearer is seen"}),
+    };
+    return table;
+}
+
+const FieldTable<Environment>& Environment::fields() {
+    using E = Environment;
+    static const FieldTable<E> table{
+        field(&E::zenith, {"zenith", FieldType::color, "", 0, unbounded, "Radiance from above"}),
+        field(&E::horizon, {"horizon", FieldType::color, "", 0, unbounded, "Radiance from the horizon"}),
+        field(&E::nadir, {"nadir", FieldType::color, "", 0, unbounded, "Radiance from below"}),
+        field(&E::backdrop, {"backdrop", FieldType::boolean, "", 0, 1, "The camera sees the backdrop colours instead"}),
+        field(&E::backdrop_bottom, {"backdrop_bottom", FieldType::color, "", 0, unbounded, "At the bottom of the picture"}),
+        field(&E::backdrop_top, {"backdrop_top", FieldType::color, "", 0, unbounded, "At the top of the picture"}),
+        field(&E::strength, {"strength", FieldType::number, "", 0, unbounded, "How much the environment lights surfaces"}),
+    };
+    return table;
+}
+
+const FieldTable<Settings>& Settings::fields() {
+    using S = Settings;
+    static const FieldTable<S> table{
+        field(&S::width, {"width", FieldType::integer, "px", 1, 65536, "Width of the picture"}),
+        field(&S::height, {"height", FieldType::integer, "px", 1, 65536, "Height of the picture"}),
+        field(&S::level, {"level", FieldType::choice, "", 0, 3, "How far realism grows", {"visible", "shadows", "reflections", "edges"}}),
+        field(&S::threshold, {"threshold", FieldType::number, "", 0, 1, "Rays of less influence on the pixel are not grown"}),
+        field(&S::depth, {"depth", FieldType::integer, "", 0, 250, "Most bounces of a ray"}),
+        field(&S::supersampling, {"supersampling", FieldType::integer, "", 0, 5, "How often a pixel may be split in four; 0: never"}),
+        field(&S::contrast, {"contrast", FieldType::number, "", 0, 1, "Difference of corners that splits a pixel"}),
+        field(&S::tonemap, {"tonemap", FieldType::choice, "", 0, 2, "How radiance becomes display colour", {"automatic", "srgb", "neutral"}}),
+        field(&S::exposure, {"exposure", FieldType::number, "stops", -32, 32, "Brightness of the picture"}),
+        field(&S::subpixel_shortcut, {"subpixel_shortcut", FieldType::choice, "", 0, 2,
+              "Try a pixel's own objects first for new rays inside it", {"off", "exact", "trust"}}),
+        field(&S::accelerator, {"accelerator", FieldType::choice, "", 0, 2, "How rays find objects", {"embree", "kay-kajiya", "linear"}}),
+        field(&S::octant_rejection, {"octant_rejection", FieldType::boolean, "", 0, 1, "kay-kajiya: reject boxes behind the ray by octant"}),
+        field(&S::priority_queue, {"priority_queue", FieldType::boolean, "", 0, 1, "kay-kajiya: open the nearest box first"}),
+        field(&S::shadow_cache, {"shadow_cache", FieldType::boolean, "", 0, 1, "Try the last occluder of a light first"}),
+        field(&S::tile, {"tile", FieldType::integer, "px", 8, 4096, "Edge of a tile"}),
+        field(&S::threads, {"threads", FieldType::integer, "", 0, 1024, "Threads; 0: one for each core"}),
+        field(&S::memory, {"memory", FieldType::integer, "bytes", 0, 1e15, "Ceiling for kept rays; 0: none"}),
+    };
+    return table;
+}
+
+}  // namespace crescente::scene

@@ -1,0 +1,51 @@
+// Materials as users describe them. render/lobes.h compiles both kinds to lobes; the tracer knows lobes only.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "base/fields.h"
+#include "math/color.h"
+
+namespace crescente::scene {
+
+using math::Rgb;
+
+enum class Highlight { phong, blinn };
+
+// The material of Whitted-style ray tracers (Whitted 1980; Phong 1975; Blinn 1977). Factors are shares of light per RGB component.
+struct ClassicMaterial {
+    Rgb ambient{0, 0, 0};
+    Rgb diffuse{0.8f, 0.8f, 0.8f};
+    Rgb specular{0, 0, 0};               // strength of the highlight of lights
+    Highlight highlight = Highlight::phong;
+    double shininess = 32;               // exponent of the highlight
+    Rgb reflection{0, 0, 0};             // share of the mirrored ray
+    Rgb transmission{0, 0, 0};           // share of the refracted ray, and of light passing in shadows
+    double ior = 1;                      // index of refraction; 1: straight through
+    Rgb attenuation{0, 0, 0};            // absorption inside, 1/m (Beer-Lambert): exp(-attenuation * distance)
+    bool fresnel = false;                // reflection and transmission shares follow Fresnel's equations (dielectric)
+    Rgb emission{0, 0, 0};
+    static const FieldTable<ClassicMaterial>& fields();
+};
+
+// glTF 2.0 metallic-roughness with KHR_materials_ior and _transmission, factors only.
+struct PhysicalMaterial {
+    Rgb base_color{0.8f, 0.8f, 0.8f};
+    double metallic = 0;
+    double roughness = 0.5;              // perceptual: alpha = roughness^2
+    Rgb emissive{0, 0, 0};               // radiance, W/(sr m^2) up to the scene's common scale
+    double ior = 1.5;
+    double transmission = 0;
+    Rgb attenuation{0, 0, 0};            // absorption inside, 1/m
+    double opacity = 1;                  // alpha coverage: the rest passes straight on
+    bool double_sided = true;
+    static const FieldTable<PhysicalMaterial>& fields();
+};
+
+struct Material {
+    std::string name;
+    std::variant<ClassicMaterial, PhysicalMaterial> model = PhysicalMaterial{};
+};
+
+}  // namespace crescente::scene

@@ -1,0 +1,36 @@
+// How a picture is made. What can change a pixel is above the line, what only changes time and memory below.
+#pragma once
+
+#include <cstdint>
+
+#include "base/fields.h"
+
+namespace crescente::scene {
+
+enum class Level { visible, shadows, reflections, edges };
+enum class Tonemap { automatic, srgb, neutral };
+enum class AcceleratorKind { embree, kay_kajiya, linear };
+enum class SubpixelShortcut { off, exact, trust };
+
+struct Settings {
+    int width = 1280, height = 720;
+    Level level = Level::edges;
+    double threshold = 1.0 / 256;  // a ray is grown while any component of its influence exceeds this
+    int depth = 12;                // most bounces of a ray; the safety net
+    int supersampling = 2;         // a pixel is split at most this often: 4^n sub-pixels; 0: off
+    double contrast = 0.08;        // corners that differ by more, on a perceptual 0..1 scale, split the pixel
+    Tonemap tonemap = Tonemap::automatic;
+    double exposure = 0;           // stops
+    SubpixelShortcut subpixel_shortcut = SubpixelShortcut::off;  // `trust` may change pixels
+    // ------------------------------------------------------------------------------------------------------------------
+    AcceleratorKind accelerator = AcceleratorKind::embree;
+    bool octant_rejection = true;  // kay-kajiya
+    bool priority_queue = true;    // kay-kajiya
+    bool shadow_cache = true;
+    int tile = 64;                 // edge of a tile, pixels
+    int threads = 0;               // 0: all
+    std::int64_t memory = 0;       // ceiling for the forest, bytes; 0: none
+    static const FieldTable<Settings>& fields();
+};
+
+}  // namespace crescente::scene
