@@ -1,5 +1,7 @@
 #include "geometry/mesh.h"
 
+#include "geometry/triangle.h"
+
 namespace crescente::geometry {
 
 Bounds Mesh::bounds() const {
@@ -16,21 +18,14 @@ Bounds Mesh::part_bounds(std::uint32_t part) const {
     return box;
 }
 
-// Signed volumes of the ray with each edge (Plücker coordinates; Shoup 1998, Woop et al. 2013). For two triangles that share an
-// edge they are exact negatives of each other, so that no ray passes between them.
 std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) const {
-    const auto& triangle = triangles[part];
-    const Vec3 a = positions[triangle[0]] - ray.origin;
-    const Vec3 b = positions[triangle[1]] - ray.origin;
-    const Vec3 c = positions[triangle[2]] - ray.origin;
-    const double u = dot(cross(c, b), ray.direction);
-    const double v = dot(cross(a, c), ray.direction);
-    const double w = dot(cross(b, a), ray.direction);
+    const auto corner = [&](int k) {
+        const Vec3& p = positions[triangles[part][k]];
+        return Point3<double>{p.x, p.y, p.z};
+    };
+    const auto [u, v, w, t] = test_triangle(corner(0), corner(1), corner(2), ray.origin, ray.direction);
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-    if (!inside) return std::nullopt;
-    const Vec3 normal = cross(b - a, c - a);
-    const double t = dot(a, normal) / dot(ray.direction, normal);  // NaN for a degenerate triangle: rejected below
-    if (t > ray.t_min && t <= ray.t_max) return ShapeHit{t, part};
+    if (inside && t > ray.t_min && t <= ray.t_max) return ShapeHit{t, part};
     return std::nullopt;
 }
 
