@@ -1,0 +1,467 @@
+// The default accelerator. Embree traverses float boxes; every hit is computed by the narrow phase in double, for triangles eight at
+// a time. (Wald et al. 2014, "Embree: A Kernel Framework for Efficient CPU Ray Tracing".)
+//
+// Why no hit is lost although Embree's rays and boxes are float: coordinates are taken about the scene's centre, and a ray that starts
+// far away is moved up to the scene first, so that all coordinates that matter are at most `reach` times the scene's radius R. The float
+// ray then strays from the double ray by a few units of 2^-24 R, and all boxes are grown by more than that (box_margin). The
+// end of the float ray is kept behind the nearest double hit by the same margin. See docs/decisions/0001-double-narrow-phase.md.
+#include <embree3/rtcore.h>
+
+#include "accel/accelerator.h"
+#include "accel/float_bounds.h"
+#include "accel/triangle_clusters.h"
+
+namespace crescente::accel {
+namespace {
+
+constexpr int packet = 16;
+constexpr double reach = 4;                    // farthest origin in scene radii, in each coordinate
+constexpr double float_unit = 1.0 / (1 << 24);  // half an ulp of float, relative
+constexpr double box_margin = 64 * float_unit;  // of the scene's radius
+
+// A primitive of Embree's: either a cluster of a mesh or one part of any other shape.
+struct Primitive {
+    std::uint32_t instance;
+    std::uint32_t index;  // into clusters of the set, or part of the shape
+    bool is_cluster;
+};
+
+// What one Embree geometry refers to. Sets of instanced meshes name no instance: Embree tells which one it is in.
+struct PrimitiveSet {
+    std::vector<Primitive> primitives;
+    std::vector<TriangleCluster> clusters;
+    std::vector<RTCBounds> bounds;
+
+    std::size_t bytes() const {
+        return primitives.capacity() * sizeof(Primitive) + clusters.capacity() * sizeof(TriangleCluster);
+    }
+};
+
+struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using Device = std::unique_ptr<RTCDeviceTy, Release>;
+using Scene = std::unique_ptr<RTCSceneTy, Release>;
+
+class Embree;
+
+// One call of Embree; the callbacks find it by the context's address.
+struct Query {
+    RTCIntersectContext context;  // first, so that its address is the query's
+    const Embree* accelerator;
+    const Ray* rays;               // of the packet
+    Hit* hits;
+    float* farther;                // float minus double parameter of each ray: where its float origin was moved
+    std::uint32_t first_ray;       // index of the packet's first ray in the batch
+    std::vector<Crossing>* crossings;
+    TestCounts counts;
+    // The ray in the space of the instance that was last tried, for each lane.
+    std::uint32_t local_instance[packet];
+    Ray local[packet];
+};
+
+class Embree final : public Accelerator {
+public:
+    explicit Embree(std::span<const Instance> instances) : instances_(instances) {}
+
+    Expected<void> build(int threads);
+    void nearest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, TestCounts& counts) const override;
+    void shadow(std::span<const Ray> rays, std::span<Hit> occluders, std::vector<Crossing>& crossings, Coherence coherence,
+                TestCounts& counts) const override;
+    std::size_t bytes() const override;
+
+    void try_nearest(const RTCIntersectFunctionNArguments& arguments) const;
+    void try_shadow(const RTCOccludedFunctionNArguments& arguments) const;
+
+private:
+    template <int width, bool shadows, class RayN>
+    void trace_packet(Query& query, int count) const;
+    template <bool shadows>
+    void trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const;
+    bool clip(const Ray& ray, double& from, double& to) const;
+    const Ray& local_ray(Query& query, unsigned lane, std::uint32_t instance) const;
+    void attach(RTCScene scene, PrimitiveSet& set);
+    std::uint32_t instance_of(const RTCIntersectContext& context, const Primitive& primitive) const {
+        const unsigned geometry = context.instID[0];
+        return geometry == RTC_INVALID_GEOMETRY_ID ? primitive.instance : instance_of_geometry_[geometry];
+    }
+
+    std::span<const Instance> instances_;
+    Device device_;
+    std::vector<std::unique_ptr<PrimitiveSet>> sets_;
+    std::vector<Scene> prototypes_;  // scenes of meshes that are shown several times
+    Scene scene_;
+    std::vector<std::uint32_t> instance_of_geometry_;  // by Embree geometry id of the top scene
+    std::vector<std::uint32_t> unbounded_;             // instances that no box holds: tried for every ray
+    Vec3 center_;
+    double radius_ = 0;      // half the largest edge of the scene's box
+    Bounds reachable_;       // box outside which origins are moved
+    Bounds box_;             // of all that is bounded, grown
+    bool empty_ = true;
+};
+
+Expected<void> Embree::build(int threads) {
+    device_.reset(rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : ""));
+    if (!device_) return failure(ErrorKind::resource, {"", "", "Embree cannot be started on this machine", ""});
+
+    std::vector<std::uint32_t> mesh_users_of(instances_.size());
+    std::vector<std::pair<const geometry::Shape*, std::vector<std::uint32_t>>> shared;  // meshes and their instances, in order
+    {
+        std::vector<std::pair<const geometry::Shape*, std::uint32_t>> meshes;
+        for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+            if (std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) meshes.emplace_back(instances_[i].shape, i);
+        }
+        std::stable_sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return std::less<>{}(a.first, b.first); });
+        for (const auto& [shape, i] : meshes) {
+            if (shared.empty() || shared.back().first != shape) shared.push_back({shape, {}});
+            shared.back().second.push_back(i);
+        }
+    }
+
+    std::vector<Bounds> boxes(instances_.size());
+    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+        boxes[i] = transform(instances_[i].to_world, geometry::bounds(*instances_[i].shape));
+        if (boxes[i].empty()) continue;
+        if (boxes[i].bounded()) {
+            box_.include(boxes[i]);
+        } else {
+            unbounded_.push_back(i);
+        }
+    }
+    empty_ = box_.empty();
+    if (empty_) return {};
+    center_ = box_.center();
+    radius_ = 0.5 * max_component(box_.diagonal());
+    // A scene of one point, or one so far out that its own extent drowns in the coordinates' precision.
+    radius_ = std::max(radius_, 1e-12 * box_.largest_coordinate() + 1e-300);
+    const double margin = box_margin * radius_;
+    const Vec3 far_out = Vec3{1, 1, 1} * (reach * radius_);
+    reachable_ = {center_ - far_out, center_ + far_out};
+    const Vec3 grown = Vec3{1, 1, 1} * margin;
+    box_ = {box_.lower - grown, box_.upper + grown};
+
+    scene_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    PrimitiveSet& flat = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
+    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+        if (!boxes[i].bounded() || std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) continue;
+        const std::uint32_t parts = geometry::parts(*instances_[i].shape);
+        for (std::uint32_t part = 0; part < parts; ++part) {
+            const Bounds box = transform(instances_[i].to_world, geometry::part_bounds(*instances_[i].shape, part));
+            if (box.empty()) continue;
+            flat.primitives.push_back({i, part, false});
+            flat.bounds.push_back(float_bounds(box, center_, margin));
+        }
+    }
+    struct Placed {
+        RTCScene prototype;
+        Vec3 origin;
+        std::uint32_t instance;
+    };
+    std::vector<Placed> placed;
+    for (const auto& [shape, users] : shared) {
+        const auto& mesh = std::get<geometry::Mesh>(*shape);
+        std::vector<TriangleCluster> clusters = cluster_triangles(mesh, device_.get());
+        if (clusters.empty()) continue;
+        if (users.size() == 1) {
+            const auto base = static_cast<std::uint32_t>(flat.clusters.size());
+            for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+                flat.primitives.push_back({users[0], base + c, true});
+                flat.bounds.push_back(float_bounds(bounds(clusters[c], instances_[users[0]].to_world), center_, margin));
+            }
+            if (flat.clusters.empty()) {
+                flat.clusters = std::move(clusters);
+            } else {
+                flat.clusters.insert(flat.clusters.end(), clusters.begin(), clusters.end());
+            }
+            continue;
+        }
+        // In the mesh's own space Embree's ray strays further: by the errors of the world ray and of the transform, both in
+        // float, carried into that space.
+        PrimitiveSet& set = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
+        set.clusters = std::move(clusters);
+        const Bounds own = mesh.bounds();
+        double local_margin = 0;
+        for (const std::uint32_t i : users) {
+            const Affine& m = instances_[i].to_local;
+            const double stretch = std::max({length(m.x), length(m.y), length(m.z)}) * 1.7320508075688773;
+            local_margin = std::max(local_margin, 4 * margin * stretch);
+        }
+        local_margin += box_margin * max_component(own.diagonal());
+        for (std::uint32_t c = 0; c < set.clusters.size(); ++c) {
+            set.primitives.push_back({none, c, true});
+            set.bounds.push_back(float_bounds(bounds(set.clusters[c], Affine{}), own.center(), local_margin));
+        }
+        RTCScene prototype = prototypes_.emplace_back(rtcNewScene(device_.get())).get();
+        rtcSetSceneFlags(prototype, RTC_SCENE_FLAG_ROBUST);
+        attach(prototype, set);
+        rtcCommitScene(prototype);
+        for (const std::uint32_t i : users) placed.push_back({prototype, own.center(), i});
+    }
+    instance_of_geometry_.push_back(none);  // geometry 0: the flat set
+    attach(scene_.get(), flat);
+    for (const auto& [prototype, origin, i] : placed) {
+        RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(geometry, prototype);
+        const Affine& m = instances_[i].to_world;
+        const Vec3 place = m.point(origin) - center_;
+        const float columns[12] = {float(m.x.x), float(m.x.y), float(m.x.z), float(m.y.x), float(m.y.y), float(m.y.z),
+                                   float(m.z.x), float(m.z.y), float(m.z.z), float(place.x), float(place.y), float(place.z)};
+        rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(instance_of_geometry_.size()));
+        rtcReleaseGeometry(geometry);
+        instance_of_geometry_.push_back(i);
+    }
+    rtcCommitScene(scene_.get());
+    for (auto& set : sets_) set->bounds = {};
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
+        return failure(ErrorKind::resource, {"", "", "Embree could not build the acceleration structure: not enough memory", ""});
+    }
+    return {};
+}
+
+void Embree::attach(RTCScene scene, PrimitiveSet& set) {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(set.primitives.size()));
+    rtcSetGeometryUserData(geometry, &set);
+    rtcSetGeometryBoundsFunction(
+        geometry,
+        [](const RTCBoundsFunctionArguments* a) { *a->bounds_o = static_cast<PrimitiveSet*>(a->geometryUserPtr)->bounds[a->primID]; }, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments* a) {
+        reinterpret_cast<const Query*>(a->context)->accelerator->try_nearest(*a);
+    });
+    rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* a) {
+        reinterpret_cast<const Query*>(a->context)->accelerator->try_shadow(*a);
+    });
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, 0);
+    rtcReleaseGeometry(geometry);
+}
+
+const Ray& Embree::local_ray(Query& query, unsigned lane, std::uint32_t instance) const {
+    if (query.local_instance[lane] != instance) {
+        query.local_instance[lane] = instance;
+        query.local[lane] = to_local(instances_[instance], query.rays[lane]);
+    }
+    return query.local[lane];
+}
+
+void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const {
+    Query& query = *reinterpret_cast<Query*>(arguments.context);
+    const auto& set = *static_cast<const PrimitiveSet*>(arguments.geometryUserPtr);
+    const Primitive primitive = set.primitives[arguments.primID];
+    const std::uint32_t index = instance_of(query.context, primitive);
+    RTCRayN* rays = RTCRayHitN_RayN(arguments.rayhit, arguments.N);
+    RTCHitN* hits = RTCRayHitN_HitN(arguments.rayhit, arguments.N);
+    for (unsigned i = 0; i < arguments.N; ++i) {
+        if (!arguments.valid[i]) continue;
+        const unsigned lane = RTCRayN_id(rays, arguments.N, i);
+        const Ray& local = local_ray(query, lane, index);
+        const Hit before_this = query.hits[lane];
+        if (primitive.is_cluster) {
+            nearest_in_cluster(set.clusters[primitive.index], index, local, query.hits[lane]);
+            query.counts.shape_tests += cluster_size;
+        } else {
+            nearest_in_part(instances_[index], index, primitive.index, local, query.hits[lane]);
+            ++query.counts.shape_tests;
+        }
+        const Hit& now = query.hits[lane];
+        if (now.t == before_this.t && now.instance == before_this.instance && now.primitive == before_this.primitive) continue;
+        const double end = now.t - query.farther[lane];
+        RTCRayN_tfar(rays, arguments.N, i) = round_up(end + 4 * box_margin * (radius_ + std::abs(end)));
+        RTCHitN_geomID(hits, arguments.N, i) = 0;
+    }
+}
+
+void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
+    Query& query = *reinterpret_cast<Query*>(arguments.context);
+    const auto& set = *static_cast<const PrimitiveSet*>(arguments.geometryUserPtr);
+    const Primitive primitive = set.primitives[arguments.primID];
+    const std::uint32_t index = instance_of(query.context, primitive);
+    const Instance& instance = instances_[index];
+    for (unsigned i = 0; i < arguments.N; ++i) {
+        if (!arguments.valid[i]) continue;
+        const unsigned lane = RTCRayN_id(arguments.ray, arguments.N, i);
+        const Ray& local = local_ray(query, lane, index);
+        query.counts.shape_tests += primitive.is_cluster ? cluster_size : 1;
+        if (instance.opaque) {
+            Hit& hit = query.hits[lane];
+            if (primitive.is_cluster) {
+                nearest_in_cluster(set.clusters[primitive.index], index, local, hit);
+            } else {
+                nearest_in_part(instance, index, primitive.index, local, hit);
+            }
+            if (hit.found()) RTCRayN_tfar(arguments.ray, arguments.N, i) = -INFINITY;
+        } else if (primitive.is_cluster) {
+            Doubles t;
+            const TriangleCluster& cluster = set.clusters[primitive.index];
+            for (unsigned lanes = hit_lanes(cluster, local, local.t_max, t); lanes; lanes &= lanes - 1) {
+                const int k = __builtin_ctz(lanes);
+                query.crossings->push_back({query.first_ray + lane, {t[k], index, cluster.triangle[k]}});
+            }
+        } else {
+            all_in_part(instance, index, primitive.index, local, query.first_ray + lane, *query.crossings);
+        }
+    }
+}
+
+// The part of the ray inside the grown box of the scene, by slabs.
+bool Embree::clip(const Ray& ray, double& from, double& to) const {
+    from = ray.t_min, to = ray.t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double o = ray.origin[axis], d = ray.direction[axis];
+        if (d == 0) {
+            if (o < box_.lower[axis] || o > box_.upper[axis]) return false;
+            continue;
+        }
+        const double a = (box_.lower[axis] - o) / d, b = (box_.upper[axis] - o) / d;
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return from <= to;
+}
+
+template <class RayN>
+struct LaneAccess {  // the same fields whether Embree's ray is one (scalars) or a packet (arrays)
+    static auto& of(auto& field, int lane) {
+        if constexpr (std::is_array_v<std::remove_reference_t<decltype(field)>>) {
+            return field[lane];
+        } else {
+            return field;
+        }
+    }
+};
+
+template <int width, bool shadows, class RayN>
+void Embree::trace_packet(Query& query, int count) const {
+    using Access = LaneAccess<RayN>;
+    alignas(64) int valid[width];
+    alignas(64) float moved[width];
+    RayN packet_rays;
+    auto& ray = [&]() -> auto& {
+        if constexpr (shadows) {
+            return packet_rays;
+        } else {
+            return packet_rays.ray;
+        }
+    }();
+    query.farther = moved;
+    const double margin = 4 * box_margin * radius_;
+    for (int lane = 0; lane < width; ++lane) {
+        valid[lane] = 0;
+        if (lane >= count) continue;
+        query.local_instance[lane] = none;
+        const Ray& from = query.rays[lane];
+        const double t_max = std::min(from.t_max, query.hits[lane].t);
+        if (shadows && query.hits[lane].found()) continue;  // an unbounded shape is in the way already
+        Vec3 origin = from.origin - center_;
+        moved[lane] = 0;
+        double start = from.t_min, end = t_max;
+        if (max_component(abs(origin)) > reach * radius_) {
+            double enter, leave;
+            if (!clip(from, enter, leave)) continue;
+            const double grown = enter - 2 * radius_;  // well before the box: the exact place does not matter
+            moved[lane] = grown > 0 ? round_down(grown) : 0.0f;
+            origin = from.at(moved[lane]) - center_;
+            start -= moved[lane], end -= moved[lane];
+        }
+        valid[lane] = -1;
+        Access::of(ray.org_x, lane) = static_cast<float>(origin.x);
+        Access::of(ray.org_y, lane) = static_cast<float>(origin.y);
+        Access::of(ray.org_z, lane) = static_cast<float>(origin.z);
+        Access::of(ray.dir_x, lane) = static_cast<float>(from.direction.x);
+        Access::of(ray.dir_y, lane) = static_cast<float>(from.direction.y);
+        Access::of(ray.dir_z, lane) = static_cast<float>(from.direction.z);
+        Access::of(ray.tnear, lane) = static_cast<float>(std::max(0.0, start - margin));
+        Access::of(ray.tfar, lane) = round_up(end + margin + 4 * box_margin * std::abs(end));
+        Access::of(ray.time, lane) = 0;
+        Access::of(ray.mask, lane) = ~0u;
+        Access::of(ray.id, lane) = static_cast<unsigned>(lane);
+        Access::of(ray.flags, lane) = 0;
+        if constexpr (!shadows) {
+            Access::of(packet_rays.hit.geomID, lane) = RTC_INVALID_GEOMETRY_ID;
+            if constexpr (width == 1) {
+                packet_rays.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+            } else {
+                packet_rays.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+            }
+        }
+    }
+    if constexpr (width == 1) {
+        if (!valid[0]) return;
+        if constexpr (shadows) {
+            rtcOccluded1(scene_.get(), &query.context, &packet_rays);
+        } else {
+            rtcIntersect1(scene_.get(), &query.context, &packet_rays);
+        }
+    } else if constexpr (shadows) {
+        rtcOccluded16(valid, scene_.get(), &query.context, &packet_rays);
+    } else {
+        rtcIntersect16(valid, scene_.get(), &query.context, &packet_rays);
+    }
+}
+
+template <bool shadows>
+void Embree::trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const {
+    Query query;
+    rtcInitIntersectContext(&query.context);
+    query.accelerator = this;
+    query.crossings = crossings;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = {};
+        for (const std::uint32_t k : unbounded_) {
+            const Instance& instance = instances_[k];
+            const Ray local = to_local(instance, rays[i]);
+            for (std::uint32_t part = 0; part < geometry::parts(*instance.shape); ++part) {
+                ++query.counts.shape_tests;
+                if (!shadows || instance.opaque) {
+                    nearest_in_part(instance, k, part, local, hits[i]);
+                } else {
+                    all_in_part(instance, k, part, local, static_cast<std::uint32_t>(i), *crossings);
+                }
+            }
+        }
+    }
+    if (!empty_) {
+        const std::size_t step = coherence == Coherence::coherent ? packet : 1;
+        for (std::size_t first = 0; first < rays.size(); first += step) {
+            query.rays = rays.data() + first;
+            query.hits = hits.data() + first;
+            query.first_ray = static_cast<std::uint32_t>(first);
+            const int count = static_cast<int>(std::min(step, rays.size() - first));
+            if (step == 1) {
+                trace_packet<1, shadows, std::conditional_t<shadows, RTCRay, RTCRayHit>>(query, 1);
+            } else {
+                trace_packet<packet, shadows, std::conditional_t<shadows, RTCRay16, RTCRayHit16>>(query, count);
+            }
+        }
+    }
+    counts += query.counts;
+}
+
+void Embree::nearest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, TestCounts& counts) const {
+    trace<false>(rays, hits, nullptr, coherence, counts);
+}
+
+void Embree::shadow(std::span<const Ray> rays, std::span<Hit> occluders, std::vector<Crossing>& crossings, Coherence coherence,
+                    TestCounts& counts) const {
+    trace<true>(rays, occluders, &crossings, coherence, counts);
+}
+
+std::size_t Embree::bytes() const {
+    std::size_t total = 0;
+    for (const auto& set : sets_) total += set->bytes();
+    return total;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances, int threads) {
+    auto embree = std::make_unique<Embree>(instances);
+    if (auto built = embree->build(threads); !built) return tl::unexpected(built.error());
+    return embree;
+}
+
+}  // namespace crescente::accel

@@ -1,0 +1,51 @@
+// A mesh cut into clusters of up to eight neighbouring triangles, laid out so that one ray is tried against all eight at once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/narrow_phase.h"
+#include "geometry/triangle.h"
+
+struct RTCDeviceTy;
+
+namespace crescente::accel {
+
+inline constexpr int cluster_size = 8;
+
+using Doubles = double __attribute__((vector_size(cluster_size * sizeof(double))));
+
+struct TriangleCluster {
+    geometry::Point3<Doubles> p, q, r;  // corners; unused lanes repeat the first corner of the first triangle: degenerate, never hit
+    std::uint32_t triangle[cluster_size];
+};
+
+// Clusters of neighbours, from the leaves of a surface area hierarchy built by Embree. `device` must not be null.
+std::vector<TriangleCluster> cluster_triangles(const geometry::Mesh& mesh, RTCDeviceTy* device);
+
+// Bounds of the cluster under a transform.
+Bounds bounds(const TriangleCluster& cluster, const Affine& to_world);
+
+// Lanes whose triangle the ray (in the mesh's space) meets within t_min < t <= t_max, as bits; t holds the parameters.
+inline unsigned hit_lanes(const TriangleCluster& cluster, const Ray& ray, double t_max, Doubles& t) {
+    const auto test = geometry::test_triangle(cluster.p, cluster.q, cluster.r, ray.origin, ray.direction);
+    const auto inside = ((test.u >= 0.0) & (test.v >= 0.0) & (test.w >= 0.0)) | ((test.u <= 0.0) & (test.v <= 0.0) & (test.w <= 0.0));
+    const auto within = inside & (test.t > ray.t_min) & (test.t <= t_max);
+    t = test.t;
+    unsigned lanes = 0;
+    for (int i = 0; i < cluster_size; ++i) lanes |= within[i] ? 1u << i : 0u;
+    return lanes;
+}
+
+// As nearest_in_part, for all triangles of the cluster.
+inline void nearest_in_cluster(const TriangleCluster& cluster, std::uint32_t instance, const Ray& local, Hit& hit) {
+    Doubles t;
+    for (unsigned lanes = hit_lanes(cluster, local, std::min(local.t_max, hit.t), t); lanes; lanes &= lanes - 1) {
+        const int lane = __builtin_ctz(lanes);
+        const Hit candidate{t[lane], instance, cluster.triangle[lane]};
+        if (before(candidate, hit)) hit = candidate;
+    }
+}
+
+}  // namespace crescente::accel
