@@ -1,0 +1,32 @@
+// Sums and comparisons of products without cancellation, by error-free transformations. std::fma is asked for by name: it gives the
+// same bits on every machine, where a contraction of the compiler's choosing would not.
+#pragma once
+
+#include <cmath>
+
+#include "math/vec.h"
+
+namespace crescente::math {
+
+// a b - c d to within 1.5 units in the last place (Kahan's method; Jeannerod, Louvet, Muller 2013, "Further analysis of Kahan's
+// algorithm for the accurate computation of 2x2 determinants").
+inline double difference_of_products(double a, double b, double c, double d) {
+    const double cd = c * d;
+    return std::fma(a, b, -cd) + std::fma(-c, d, cd);
+}
+
+// Whether a b > c d, exactly (barring underflow): rounding is monotonic, so products that round differently are in that order; for
+// products that round alike the rounding errors, which are doubles themselves, decide.
+inline bool product_greater(double a, double b, double c, double d) {
+    const double ab = a * b, cd = c * d;
+    if (ab != cd) return ab > cd;
+    return std::fma(a, b, -ab) > std::fma(c, d, -cd);
+}
+
+// The cross product with each component accurate to within 1.5 units in the last place.
+inline Vec3 exact_cross(Vec3 a, Vec3 b) {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
+}  // namespace crescente::math
