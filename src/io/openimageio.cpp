@@ -1,0 +1,68 @@
+#include "io/openimageio.h"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <dlfcn.h>
+
+namespace crescente::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Marks this code, to ask the system which file it was loaded from: the program, or the Python module.
+void here() {}
+
+std::optional<fs::path> module_file() {
+    std::vector<fs::path> folders;
+    std::error_code error;
+    if (const auto program = fs::read_symlink("/proc/self/exe", error); !error) folders.push_back(program.parent_path());
+    if (Dl_info info{}; dladdr(reinterpret_cast<void*>(&here), &info) && info.dli_fname) {
+        if (const auto library = fs::canonical(info.dli_fname, error); !error) folders.push_back(library.parent_path());
+    }
+    for (const fs::path& folder : folders) {
+        for (const char* place : {".", "../lib", "../lib/crescente"}) {
+            fs::path file = (folder / place / "crescente_openimageio.so").lexically_normal();
+            if (fs::exists(file, error)) return file;
+        }
+    }
+    return std::nullopt;
+}
+
+struct Module {
+    decltype(&crescente_oiio_encode) encode = nullptr;
+    std::string error;
+};
+
+Module load() {
+    const auto file = module_file();
+    if (!file) return {nullptr, "this build has no OpenImageIO (crescente_openimageio.so)"};
+    void* library = dlopen(file->c_str(), RTLD_NOW | RTLD_LOCAL);  // stays loaded: OpenImageIO keeps threads
+    if (!library) return {nullptr, dlerror()};
+    const auto encode = reinterpret_cast<decltype(&crescente_oiio_encode)>(dlsym(library, "crescente_oiio_encode"));
+    return {encode, encode ? std::string{} : std::string{dlerror()}};
+}
+
+struct Answer {
+    std::string bytes;
+    std::string error;
+};
+
+}  // namespace
+
+bool has_openimageio() { return module_file().has_value(); }
+
+Expected<std::string> encode_with_openimageio(CrescenteEncodeRequest request) {
+    static const Module module = load();
+    if (!module.encode) return failure(ErrorKind::unsupported, {{}, {}, module.error, "PNG needs no OpenImageIO"});
+    Answer answer;
+    request.version = crescente_oiio_version;
+    request.user = &answer;
+    request.take = [](void* user, const char* bytes, std::size_t size) { static_cast<Answer*>(user)->bytes.assign(bytes, size); };
+    request.fail = [](void* user, const char* reason) { static_cast<Answer*>(user)->error = reason; };
+    if (module.encode(&request)) return std::move(answer.bytes);
+    return failure(ErrorKind::resource, {{}, {}, answer.error.empty() ? "OpenImageIO failed" : answer.error, {}});
+}
+
+}  // namespace crescente::io
