@@ -1,0 +1,68 @@
+#include "app/cli/load.h"
+
+#include "io/overrides.h"
+#include "scene/studio.h"
+#include "scene/validate.h"
+
+namespace crescente::app {
+namespace {
+
+bool emits(const scene::Material& material) {
+    if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return !math::is_black(classic->emission);
+    return !math::is_black(std::get<scene::PhysicalMaterial>(material.model).emissive);
+}
+
+// Whether something in the scene lights it.
+bool lit(const scene::Scene& scene) {
+    if (!scene.lights.empty() || (scene.environment && scene.environment->strength > 0)) return true;
+    return std::any_of(scene.materials.begin(), scene.materials.end(), emits);
+}
+
+Expected<void> apply_overrides(const std::vector<std::string>& overrides, scene::Scene& scene) {
+    Error wrong{ErrorKind::usage, {}};
+    for (const std::string& text : overrides) {
+        if (const auto applied = io::apply_override(scene, text); !applied) {
+            wrong.problems.insert(wrong.problems.end(), applied.error().problems.begin(), applied.error().problems.end());
+        }
+    }
+    if (!wrong.problems.empty()) return tl::unexpected<Error>(std::move(wrong));
+    return {};
+}
+
+// Camera, lights and ground for what has none.
+Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
+    if (const auto placed = place_camera(request.view, scene); !placed) return placed;
+    if (!scene.camera || (request.studio && !lit(scene))) {
+        if (!scene::bounds(scene).bounded()) {
+            return failure(ErrorKind::input, {request.file, "", "the scene is empty: there is nothing to frame", ""});
+        }
+        if (request.studio) {
+            scene::add_studio(scene);
+        } else {
+            scene::Scene framed = scene;  // the camera of the studio without its lights
+            scene::add_studio(framed);
+            scene.camera = framed.camera;
+        }
+    }
+    set_projection(request.view, *scene.camera);
+    return {};
+}
+
+}  // namespace
+
+Expected<io::Loaded> load(const SceneRequest& request) {
+    auto loaded = io::read_scene(request.file);
+    if (!loaded) return loaded;
+    scene::Scene& scene = loaded->scene;
+
+    for (const auto& [field, value] : request.settings) field->set(scene.settings, value);
+    if (const auto applied = apply_overrides(request.overrides, scene); !applied) return tl::unexpected<Error>(applied.error());
+
+    if (auto problems = scene::validate(scene, request.file); !problems.empty()) {
+        return tl::unexpected<Error>({ErrorKind::input, std::move(problems)});
+    }
+    if (const auto furnished = furnish(request, scene); !furnished) return tl::unexpected<Error>(furnished.error());
+    return loaded;
+}
+
+}  // namespace crescente::app

@@ -1,0 +1,279 @@
+// crescente render MODEL -o PICTURE
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/cli/command.h"
+#include "app/cli/content_hash.h"
+#include "app/cli/load.h"
+#include "app/cli/progress.h"
+#include "app/cli/quantities.h"
+#include "app/cli/scene_options.h"
+#include "app/cli/stats_file.h"
+#include "app/cli/stop.h"
+#include "io/image_file.h"
+#include "render/session.h"
+
+namespace crescente::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// As the user wrote them.
+struct RenderOptions {
+    SceneOptions scene;
+    std::vector<std::string> outputs;
+    std::string stats_file, time, tonemap, replay;
+    std::optional<double> exposure;
+    int bits = 8;
+    bool quiet = false;
+};
+
+struct Pixel {
+    int x = 0, y = 0;
+};
+
+// What they ask for.
+struct Request {
+    SceneRequest scene;
+    std::optional<std::chrono::duration<double>> time;
+    std::optional<Pixel> replay;
+    std::optional<scene::Tonemap> tonemap;
+};
+
+// Why the picture stopped growing.
+enum class Ending { complete, time, asked, insisted };
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6; };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+Expected<Request> understand(const RenderOptions& options) {
+    Request request;
+    Problems problems;
+    const auto keep = [&](auto value, auto& place) {
+        if (value) {
+            place = std::move(*value);
+        } else {
+            problems.insert(problems.end(), value.error().problems.begin(), value.error().problems.end());
+        }
+    };
+    keep(app::understand(options.scene), request.scene);
+    if (!options.time.empty()) keep(parse_duration("--time", options.time), request.time);
+    if (options.tonemap == "srgb") request.tonemap = scene::Tonemap::srgb;
+    if (options.tonemap == "neutral") request.tonemap = scene::Tonemap::neutral;
+    if (options.tonemap == "auto") request.tonemap = scene::Tonemap::automatic;
+    if (!options.replay.empty()) {
+        std::vector<double> numbers;
+        keep(parse_numbers("--replay", options.replay), numbers);
+        constexpr double widest = 65536;
+        const auto pixel = [&](double n) { return n >= 0 && n < widest && n == static_cast<int>(n); };
+        if (numbers.size() == 2 && pixel(numbers[0]) && pixel(numbers[1])) {
+            request.replay = Pixel{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+        } else if (!numbers.empty()) {
+            problems.push_back({"", "--replay", "'" + options.replay + "' is not a pixel", "write x,y, counted from the top left"});
+        }
+    }
+    if (!problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(problems)});
+    return request;
+}
+
+// Every output that cannot be written, before anything is rendered.
+Expected<void> check_outputs(const RenderOptions& options) {
+    Error unwritable{ErrorKind::output, {}};
+    const auto check = [&](const Expected<void>& writable) {
+        if (writable) return;
+        unwritable.kind = writable.error().kind;
+        unwritable.problems.insert(unwritable.problems.end(), writable.error().problems.begin(), writable.error().problems.end());
+    };
+    for (const std::string& output : options.outputs) check(io::can_write(output));
+    if (!options.stats_file.empty()) check(can_write_text(options.stats_file));
+    if (!unwritable.problems.empty()) return tl::unexpected<Error>(std::move(unwritable));
+    return {};
+}
+
+// Lets the picture grow until it is complete, the time is over or the user has seen enough. The first whole picture is
+// always waited for.
+Ending grow(render::Session& session, const Request& request, const StopRequests& stop, ProgressDisplay& display) {
+    constexpr auto between_updates = std::chrono::milliseconds(100);
+    const auto start = Clock::now();
+    const auto end = request.time ? start + std::chrono::duration_cast<Clock::duration>(*request.time) : Clock::time_point::max();
+    render::Progress progress;
+    while (true) {
+        const auto update = Clock::now() + between_updates;
+        progress = progress.first_picture ? session.advance({std::min(update, end), &stop.asked()})
+                                          : session.advance({update, &stop.insisted()});
+        display.show(progress, session);
+        if (progress.done) return Ending::complete;
+        if (stop.insisted()) return Ending::insisted;
+        if (!progress.first_picture) continue;
+        if (stop.asked()) return Ending::asked;
+        if (Clock::now() >= end) return Ending::time;
+    }
+}
+
+// sRGB for classic materials, whose colours are meant for the screen; the neutral curve as soon as a physical one is seen.
+scene::Tonemap automatic_tonemap(const scene::Scene& scene) {
+    bool physical = false;
+    scene::for_each_appearance(scene, [&](std::uint32_t, const math::Affine&, const std::vector<scene::MaterialId>& materials) {
+        if (materials.empty()) physical |= std::holds_alternative<scene::PhysicalMaterial>(scene::Material{}.model);
+        for (const scene::MaterialId id : materials) {
+            physical |= id.valid() && std::holds_alternative<scene::PhysicalMaterial>(scene.materials[id.value].model);
+        }
+    });
+    return physical ? scene::Tonemap::neutral : scene::Tonemap::srgb;
+}
+
+io::ImageOptions image_options(const RenderOptions& options, const Request& request, const scene::Scene& scene) {
+    io::ImageOptions image;
+    image.tonemap = request.tonemap.value_or(scene.settings.tonemap);
+    if (image.tonemap == scene::Tonemap::automatic) image.tonemap = automatic_tonemap(scene);
+    image.exposure = options.exposure.value_or(scene.settings.exposure);
+    image.bits = options.bits;
+    return image;
+}
+
+bool needs_all_layers(const std::vector<std::string>& outputs) {
+    return std::any_of(outputs.begin(), outputs.end(), [](const std::string& output) { return output.ends_with(".exr"); });
+}
+
+std::string summary(const render::Stats& stats, const scene::Settings& settings, const RunTimes& times, const std::string& output) {
+    const double rate = static_cast<double>(stats.rays.total()) / std::max(times.render, 1e-9);
+    const auto count = [](std::uint64_t n) { return human_count(static_cast<double>(n)); };
+    char bytes[32];
+    std::snprintf(bytes, sizeof bytes, "%.0f", stats.bytes_per_pixel);
+    return (output.empty() ? "" : output + "\n") + "  " + std::to_string(settings.width) + "x" + std::to_string(settings.height) + " in " +
+           human_time(times.total) + " (load " + human_time(times.load) + ", render " + human_time(times.render) + ", " +
+           std::to_string(stats.threads) + (stats.threads == 1 ? " thread)\n" : " threads)\n") + "  rays: " + count(stats.rays.total()) +
+           " (camera " + count(stats.rays.camera) + ", reflected " + count(stats.rays.reflected) + ", refracted " +
+           count(stats.rays.refracted) + ", shadow " + count(stats.rays.shadow) + "), " + human_count(rate) + "rays/s\n" +
+           "  kept: " + count(stats.nodes) + " nodes, " + bytes + " bytes per pixel\n";
+}
+
+const char* ending_name(Ending ending) {
+    switch (ending) {
+        case Ending::complete: return "complete";
+        case Ending::time: return "time";
+        case Ending::asked:
+        case Ending::insisted: return "signal";
+    }
+    return "";
+}
+
+ExitCode render(const RenderOptions& options, const Invocation& invocation) {
+    const auto start = Clock::now();
+    RunTimes times;
+
+    const auto request = understand(options);
+    if (!request) return fail(request.error());
+    if (const auto writable = check_outputs(options); !writable) return fail(writable.error());
+
+    auto loaded = load(request->scene);
+    if (!loaded) return fail(loaded.error());
+    warn(loaded->warnings);
+    const auto hash = content_hash(options.scene.file);
+    if (!hash) return fail(hash.error());
+    times.load = seconds_since(start);
+
+    const scene::Settings settings = loaded->scene.settings;
+    if (request->replay && (request->replay->x >= settings.width || request->replay->y >= settings.height)) {
+        return fail({ErrorKind::usage, {{"", "--replay", "the pixel is outside the picture", ""}}});
+    }
+    auto session = render::Session::open(std::move(loaded->scene));
+    if (!session) return fail(session.error());
+
+    const StopRequests stop;
+    const auto render_start = Clock::now();
+    Ending ending;
+    {
+        ProgressDisplay display(options.quiet, request->time);
+        display.announce("rendering " + std::to_string(settings.width) + "x" + std::to_string(settings.height));
+        ending = grow(*session, *request, stop, display);
+    }
+    times.render = seconds_since(render_start);
+    if (ending == Ending::insisted) {
+        note("stopped; nothing was written");
+        return exit_stopped;
+    }
+
+    const render::Stats stats = session->stats();
+    nlohmann::ordered_json report = {{"version", CRESCENTE_VERSION},
+                                     {"command", invocation.command_line},
+                                     {"scene", {{"file", options.scene.file}, {"hash", *hash}, {"hash_function", "xxh64"}}},
+                                     {"width", settings.width},
+                                     {"height", settings.height},
+                                     {"ended_by", ending_name(ending)}};
+    report.update(stats_json(stats));
+    report["time"] = {{"load", times.load}, {"build", stats.build_seconds}, {"render", times.render}};
+
+    if (!options.outputs.empty()) {
+        const auto write_start = Clock::now();
+        const scene::Image picture = session->picture(needs_all_layers(options.outputs));
+        io::ImageOptions image = image_options(options, *request, session->scene());
+        image.metadata = {{"Software", std::string("Crescente ") + CRESCENTE_VERSION},
+                          {"Command", invocation.command_line},
+                          {"SceneHash", "xxh64:" + *hash},
+                          {"Statistics", report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)}};
+        for (const std::string& output : options.outputs) {
+            if (const auto written = io::write_image(picture, output, image); !written) return fail(written.error());
+        }
+        times.write = seconds_since(write_start);
+    }
+
+    times.total = seconds_since(start);
+    times.cpu = cpu_seconds();
+    report["time"]["write"] = times.write;
+    report["time"]["total"] = times.total;
+    report["time"]["cpu"] = times.cpu;
+    if (!options.stats_file.empty()) {
+        const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+        if (const auto written = write_text(options.stats_file, text); !written) return fail(written.error());
+    }
+
+    if (!options.quiet) {
+        if (ending == Ending::time) note("the time was over before the picture was complete: it is whole, but not yet as fine as asked");
+        if (ending == Ending::asked) note("stopped before the picture was complete: it is whole, but not yet as fine as asked");
+        std::string outputs;
+        for (const std::string& output : options.outputs) outputs += (outputs.empty() ? "" : ", ") + output;
+        std::cout << summary(stats, settings, times, outputs);
+    }
+    if (request->replay) std::cout << session->describe(request->replay->x, request->replay->y);
+    std::cout.flush();
+    return std::cout ? exit_ok : fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
+}
+
+}  // namespace
+
+Command add_render(CLI::App& app) {
+    CLI::App* parser = app.add_subcommand("render", "Render a picture");
+    const auto options = std::make_shared<RenderOptions>();
+    add_scene_options(*parser, options->scene);
+    parser->add_option("-o,--output", options->outputs, "Where the picture goes: .png .jpg .tif .hdr .exr (repeatable)")
+        ->option_text("FILE")->required()->expected(1)->take_all();
+    parser->add_option("--time", options->time, "Stop rendering after this time (10s, 2m): the picture is whole at any moment")->option_text("TIME");
+    parser->add_option("--tonemap", options->tonemap, "Display colours: auto, srgb or neutral (Khronos PBR Neutral)")
+        ->option_text("NAME")->check(CLI::IsMember({"auto", "srgb", "neutral"}));
+    parser->add_option("--exposure", options->exposure, "Brightness of the picture in stops")->option_text("STOPS")->check(CLI::Range(-32.0, 32.0));
+    parser->add_option("--bits", options->bits, "Bits of a channel in PNG and TIFF")->option_text("8|16")->check(CLI::IsMember({8, 16}));
+    parser->add_option("--stats", options->stats_file, "Write counters and times as JSON")->option_text("FILE");
+    parser->add_option("--replay", options->replay, "Print the ray tree of a pixel, counted from the top left")->option_text("X,Y");
+    parser->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
+    parser->footer(
+        "Ctrl-C once finishes with the picture so far, twice stops at once and writes nothing.\n\n"
+        "Examples:\n"
+        "  crescente render engine.glb -o engine.png\n"
+        "  crescente render engine.glb -o engine.png -o engine.exr --size 1920x1080 --camera iso --time 10s\n"
+        "  crescente render balls4.nff -o balls.png --depth 4 --set settings.contrast=0.05 --stats balls.json");
+    return {parser, [options](const Invocation& invocation) { return render(*options, invocation); }};
+}
+
+}  // namespace crescente::app

@@ -1,0 +1,150 @@
+#include "app/cli/scene_options.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "app/cli/quantities.h"
+#include "base/spelling.h"
+
+namespace crescente::app {
+namespace {
+
+// Options that are a field of scene::Settings by another name.
+struct SettingOption {
+    const char* option;
+    const char* field;
+    const char* value;
+    const char* doc;
+};
+constexpr SettingOption setting_options[] = {
+    {"--level", "level", "LEVEL", "How far realism grows: visible, shadows, reflections, edges, or 0 to 3"},
+    {"--threads", "threads", "N", "Threads; 0: one for each core"},
+    {"--depth", "depth", "N", "Most bounces of a ray"},
+    {"--threshold", "threshold", "X", "Rays of less influence on their pixel are not followed, 0 to 1"},
+    {"--contrast", "contrast", "X", "Difference of corners that splits a pixel, 0 to 1"},
+    {"--accel", "accelerator", "NAME", "How rays find objects: embree, kay-kajiya or linear"},
+};
+
+const Field<scene::Settings>& setting(const std::string& name) {
+    for (const auto& field : scene::Settings::fields()) {
+        if (field.info.name == name) return field;
+    }
+    std::abort();  // an option names a field that does not exist
+}
+
+template <class Number>
+bool read_all(const std::string& text, Number& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+Problem out_of_range(const std::string& option, const std::string& text, const FieldInfo& info) {
+    const auto print = [](double number) {
+        char buffer[32];
+        std::snprintf(buffer, sizeof buffer, "%.15g", number);
+        return std::string(buffer);
+    };
+    return {"", option, text + " is out of range", "from " + print(info.minimum) + " to " + print(info.maximum)};
+}
+
+// Collects what the options say and what is wrong with them.
+struct Reader {
+    SceneRequest request;
+    Problems problems;
+
+    template <class T>
+    bool keep(const Expected<T>& value) {
+        if (value) return true;
+        problems.insert(problems.end(), value.error().problems.begin(), value.error().problems.end());
+        return false;
+    }
+
+    void set_integer(const std::string& option, const std::string& name, std::int64_t value) {
+        const auto& field = setting(name);
+        const auto as_number = static_cast<double>(value);
+        if (as_number < field.info.minimum || as_number > field.info.maximum) {
+            problems.push_back(out_of_range(option, std::to_string(value), field.info));
+        } else {
+            request.settings.emplace_back(&field, value);
+        }
+    }
+
+    void set_text(const std::string& option, const std::string& name, const std::string& text) {
+        const auto& field = setting(name);
+        const FieldInfo& info = field.info;
+        if (info.type == FieldType::choice) {
+            const auto& choices = info.choices;
+            std::int64_t index = -1;
+            if (!read_all(text, index)) index = std::find(choices.begin(), choices.end(), text) - choices.begin();
+            if (index >= 0 && index < std::ssize(choices)) {
+                request.settings.emplace_back(&field, index);
+            } else {
+                problems.push_back({"", option, "there is no '" + text + "'", spelling_hint(text, choices)});
+            }
+        } else if (info.type == FieldType::integer) {
+            std::int64_t value = 0;
+            if (read_all(text, value)) {
+                set_integer(option, name, value);
+            } else {
+                problems.push_back({"", option, "'" + text + "' is not a whole number", ""});
+            }
+        } else {
+            double value = 0;
+            if (!read_all(text, value) || !std::isfinite(value)) {
+                problems.push_back({"", option, "'" + text + "' is not a number", ""});
+            } else if (value < info.minimum || value > info.maximum) {
+                problems.push_back(out_of_range(option, text, info));
+            } else {
+                request.settings.emplace_back(&field, value);
+            }
+        }
+    }
+};
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+    command.add_option("model", options.file, "Scene or model file (see `crescente formats`)")->required()->option_text("MODEL");
+    command.add_option("--size", options.size, "Size of the picture in pixels")->option_text("WxH");
+    for (const SettingOption& o : setting_options) {
+        command.add_option(o.option, options.settings[o.field], o.doc)->option_text(o.value);
+    }
+    command.add_option("--supersampling", options.supersampling, "How often a pixel may be split in four, 0 to 5, or off")->option_text("N");
+    command.add_option("--memory", options.memory, "Ceiling for the kept rays, such as 2G; 0: none")->option_text("BYTES");
+    command.add_option("--camera", options.camera, "px,py,pz,tx,ty,tz in the file's unit, or a view: " + view_names())->option_text("VIEW");
+    command.add_option("--fov", options.field_of_view, "Vertical field of view")->option_text("DEGREES");
+    command.add_flag("--orthographic", options.orthographic, "Parallel projection");
+    command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
+        ->option_text("PATH=VALUE")->expected(1)->take_all();
+    command.add_flag("--no-studio", options.no_studio, "Add no lights and ground to a bare model");
+}
+
+Expected<SceneRequest> understand(const SceneOptions& options) {
+    Reader reader;
+    for (const SettingOption& o : setting_options) {
+        const auto& text = options.settings.at(o.field);
+        if (!text.empty()) reader.set_text(o.option, o.field, text);
+    }
+    if (!options.size.empty()) {
+        if (const auto size = parse_size("--size", options.size); reader.keep(size)) {
+            reader.set_integer("--size", "width", size->width);
+            reader.set_integer("--size", "height", size->height);
+        }
+    }
+    if (!options.supersampling.empty()) {
+        reader.set_text("--supersampling", "supersampling", options.supersampling == "off" ? "0" : options.supersampling);
+    }
+    if (!options.memory.empty()) {
+        if (const auto bytes = parse_bytes("--memory", options.memory); reader.keep(bytes)) reader.set_integer("--memory", "memory", *bytes);
+    }
+    if (auto view = parse_view(options.camera, options.field_of_view, options.orthographic); reader.keep(view)) {
+        reader.request.view = std::move(*view);
+    }
+    if (!reader.problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(reader.problems)});
+    reader.request.file = options.file;
+    reader.request.overrides = options.overrides;
+    reader.request.studio = !options.no_studio;
+    return std::move(reader.request);
+}
+
+}  // namespace crescente::app

@@ -1,0 +1,42 @@
+// The options that say what is rendered and how, shared by `render` and `bench`.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "app/cli/view.h"
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace crescente::app {
+
+// As the user wrote them.
+struct SceneOptions {
+    std::string file;
+    std::map<std::string, std::string> settings;  // field of scene::Settings -> value
+    std::string size, memory, supersampling;
+    std::string camera, field_of_view;
+    bool orthographic = false;
+    std::vector<std::string> overrides;  // --set path=value
+    bool no_studio = false;
+};
+
+// Declares the options; `options` must outlive the parsing.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+// What they ask for, understood and within range.
+struct SceneRequest {
+    std::string file;
+    std::vector<std::pair<const Field<scene::Settings>*, FieldValue>> settings;
+    View view;
+    std::vector<std::string> overrides;
+    bool studio = true;
+};
+
+// Every problem of the options at once (ErrorKind::usage).
+Expected<SceneRequest> understand(const SceneOptions& options);
+
+}  // namespace crescente::app
