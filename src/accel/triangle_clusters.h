@@ -35,6 +35,12 @@ inline unsigned hit_lanes(const TriangleCluster& cluster, const Ray& ray, double
     t = test.t;
     unsigned lanes = 0;
     for (int i = 0; i < cluster_size; ++i) lanes |= within[i] ? 1u << i : 0u;
+    for (unsigned rest = lanes; rest; rest &= rest - 1) {  // a ray on an edge or vertex belongs to one triangle only
+        const int i = __builtin_ctz(rest);
+        if (test.u[i] != 0 && test.v[i] != 0 && test.w[i] != 0) continue;
+        const auto corner = [i](const geometry::Point3<Doubles>& c) { return geometry::Point3<double>{c.x[i], c.y[i], c.z[i]}; };
+        if (!geometry::encloses(corner(cluster.p), corner(cluster.q), corner(cluster.r), ray.origin, ray.direction)) lanes ^= 1u << i;
+    }
     return lanes;
 }
 

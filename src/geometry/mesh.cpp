@@ -23,10 +23,12 @@ std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) cons
         const Vec3& p = positions[triangles[part][k]];
         return Point3<double>{p.x, p.y, p.z};
     };
-    const auto [u, v, w, t] = test_triangle(corner(0), corner(1), corner(2), ray.origin, ray.direction);
+    const Point3<double> p = corner(0), q = corner(1), r = corner(2);
+    const auto [u, v, w, t] = test_triangle(p, q, r, ray.origin, ray.direction);
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-    if (inside && t > ray.t_min && t <= ray.t_max) return ShapeHit{t, part};
-    return std::nullopt;
+    if (!inside || !(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
+    if ((u == 0 || v == 0 || w == 0) && !encloses(p, q, r, ray.origin, ray.direction)) return std::nullopt;
+    return ShapeHit{t, part};
 }
 
 SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {
@@ -52,7 +54,7 @@ SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {
             sum += Vec3{n[0], n[1], n[2]} * weights[k];
         }
         const double l = length(sum);
-        if (l > 0) point.shading_normal = sum / l;
+        if (l > 0 && std::isfinite(l)) point.shading_normal = sum / l;
     }
     point.slot = slots.empty() ? 0 : slots[primitive];
     return point;

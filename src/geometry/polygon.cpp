@@ -24,14 +24,14 @@ Bounds Polygon::bounds() const {
 }
 
 std::optional<ShapeHit> Polygon::intersect(std::uint32_t, const Ray& ray) const {
-    const RayView view(ray);
+    const RayView view(ray.origin, ray.direction);
     bool inside = false;
     double least = infinity, most = -infinity;
     for (const auto& loop : loops) {
         if (loop.empty()) continue;
-        ViewPoint before = view(loop.back());
+        ViewPoint<double> before = view(loop.back());
         for (const Vec3 p : loop) {
-            const ViewPoint here = view(p);
+            const ViewPoint<double> here = view(p);
             inside ^= crosses(before, here);
             least = std::min(least, here.depth), most = std::max(most, here.depth);
             before = here;
@@ -41,7 +41,8 @@ std::optional<ShapeHit> Polygon::intersect(std::uint32_t, const Ray& ray) const 
     const auto& first = loops.front();
     const Vec3 normal = area_normal(first);
     if (!(dot(normal, normal) > 0)) return std::nullopt;
-    const double t = plane_parameter(first[0] - ray.origin, normal, ray.direction, view.parameter(least), view.parameter(most));
+    const double s0 = view.parameter(least), s1 = view.parameter(most);
+    const double t = parameter_between(dot(first[0] - ray.origin, normal) / dot(ray.direction, normal), std::min(s0, s1), std::max(s0, s1));
     return in_reach(t, ray) ? std::optional(ShapeHit{t, 0}) : std::nullopt;
 }
 

@@ -1,42 +1,44 @@
 // The ray-triangle test, written once for one triangle and for eight at a time: the operations and their order are the same for both, so the
 // answers are the same to the bit.
 //
-// Signed volumes of the ray with each edge (Plücker coordinates; Shevtsov et al. 2007; Woop, Benthin, Wald 2013, "Watertight
-// Ray/Triangle Intersection"). For two triangles that share an edge they are exact negatives of each other, so that no ray passes
-// between them.
+// u, v and w are twice the signed areas of the triangle's three parts as seen along the ray (ray_view.h). Rounding may make one zero but
+// never gives it the wrong sign, since rounded products keep their order: a triangle that encloses the ray always passes, and where one is zero
+// encloses() decides exactly which of the triangles at that edge or vertex is the ray's.
 #pragma once
 
-#include "math/vec.h"
+#include "geometry/ray_view.h"
 
 namespace crescente::geometry {
 
-// Three coordinates of one point (T = double), or of one corner of several triangles (T = a vector of doubles).
-template <class T>
-struct Point3 {
-    T x, y, z;
-};
-
 template <class T>
 struct TriangleTest {
-    T u, v, w;  // inside if none is negative or none is positive
-    T t;        // parameter of the ray in the triangle's plane; NaN or infinite if the triangle is degenerate or edge-on
+    T u, v, w;  // inside if none is negative or none is positive, and where one is zero, encloses()
+    T t;        // parameter of the ray in the triangle's plane; NaN if the triangle has no area
 };
 
 template <class T>
 inline TriangleTest<T> test_triangle(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, math::Vec3 origin, math::Vec3 direction) {
-    const T ax = p.x - origin.x, ay = p.y - origin.y, az = p.z - origin.z;
-    const T bx = q.x - origin.x, by = q.y - origin.y, bz = q.z - origin.z;
-    const T cx = r.x - origin.x, cy = r.y - origin.y, cz = r.z - origin.z;
-    const double dx = direction.x, dy = direction.y, dz = direction.z;
+    const RayView view(origin, direction);
+    const ViewPoint<T> a = view(p), b = view(q), c = view(r);
     TriangleTest<T> test;
-    test.u = (cy * bz - cz * by) * dx + (cz * bx - cx * bz) * dy + (cx * by - cy * bx) * dz;
-    test.v = (ay * cz - az * cy) * dx + (az * cx - ax * cz) * dy + (ax * cy - ay * cx) * dz;
-    test.w = (by * az - bz * ay) * dx + (bz * ax - bx * az) * dy + (bx * ay - by * ax) * dz;
+    test.u = c.x * b.y - c.y * b.x;
+    test.v = a.x * c.y - a.y * c.x;
+    test.w = b.x * a.y - b.y * a.x;
     const T ex = q.x - p.x, ey = q.y - p.y, ez = q.z - p.z;
     const T fx = r.x - p.x, fy = r.y - p.y, fz = r.z - p.z;
     const T nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-    test.t = (ax * nx + ay * ny + az * nz) / (nx * dx + ny * dy + nz * dz);
+    const T t = ((p.x - origin.x) * nx + (p.y - origin.y) * ny + (p.z - origin.z) * nz) / (nx * direction.x + ny * direction.y + nz * direction.z);
+    const T s0 = view.parameter(a.depth), s1 = view.parameter(b.depth), s2 = view.parameter(c.depth);
+    const T low = s0 < s1 ? s0 : s1, high = s0 < s1 ? s1 : s0;
+    test.t = parameter_between(t, T(s2 < low ? s2 : low), T(s2 > high ? s2 : high));
     return test;
+}
+
+// Whether the ray is inside the triangle, with edges and vertices given to exactly one of the triangles that share them.
+inline bool encloses(const Point3<double>& p, const Point3<double>& q, const Point3<double>& r, math::Vec3 origin, math::Vec3 direction) {
+    const RayView view(origin, direction);
+    const ViewPoint<double> a = view(p), b = view(q), c = view(r);
+    return crosses(a, b) ^ crosses(b, c) ^ crosses(c, a);
 }
 
 }  // namespace crescente::geometry
