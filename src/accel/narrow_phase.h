@@ -19,11 +19,12 @@ inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 struct Instance {
     const geometry::Shape* shape = nullptr;
     Affine to_world, to_local;
-    bool opaque = true;  // false: light passes, filtered; each crossing is reported to shadow rays
+    bool identity = true;  // to_world changes nothing
+    bool opaque = true;    // false: light passes, filtered; each crossing is reported to shadow rays
 
     Instance() = default;
     Instance(const geometry::Shape& s, const Affine& place, bool is_opaque)
-        : shape(&s), to_world(place), to_local(inverse(place)), opaque(is_opaque) {}
+        : shape(&s), to_world(place), to_local(inverse(place)), identity(place == Affine{}), opaque(is_opaque) {}
 };
 
 struct Hit {
@@ -51,9 +52,15 @@ struct Crossing {
 // The ray in the shape's space, with the same parameter t.
 inline Ray to_local(const Instance& instance, const Ray& ray) {
     Ray local = ray;
+    if (instance.identity) return local;
     local.origin = instance.to_local.point(ray.origin);
     local.direction = instance.to_local.vector(ray.direction);
     return local;
+}
+
+// The part that a primitive of a hit belongs to.
+inline std::uint32_t part_of(const Instance& instance, std::uint32_t primitive) {
+    return geometry::parts(*instance.shape) == 1 ? 0 : primitive;
 }
 
 // Tries one part with a ray already in the shape's space; `hit` becomes the earlier of itself and the new hit.

@@ -1,39 +1,19 @@
 // The face of the engine, used alike by the command line, the viewer, Python and the cluster.
 #pragma once
 
-#include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "render/counts.h"
+#include "render/deadline.h"
 #include "scene/image.h"
 #include "scene/scene.h"
 
 namespace crescente::render {
 
-// When advance() must come back. Work is done in quanta of at most about 2 ms.
-struct Deadline {
-    std::chrono::steady_clock::time_point at = std::chrono::steady_clock::time_point::max();
-    const std::atomic<bool>* stop = nullptr;  // set by another thread, or a signal handler, to come back at once
-
-    static Deadline never() { return {}; }
-    static Deadline in(std::chrono::nanoseconds time) { return {std::chrono::steady_clock::now() + time, nullptr}; }
-    bool passed() const { return (stop && stop->load(std::memory_order_relaxed)) || std::chrono::steady_clock::now() >= at; }
-};
-
-// Counters of everything done so far.
-struct RayCounts {
-    std::uint64_t camera = 0, reflected = 0, refracted = 0, shadow = 0;
-    std::uint64_t total() const { return camera + reflected + refracted + shadow; }
-};
-struct TestCounts {
-    std::uint64_t box_tests = 0, shape_tests = 0;      // box tests: kay-kajiya only
-    std::uint64_t shadow_cache_hits = 0;
-    std::uint64_t shortcut_rays = 0, shortcut_wrong = 0;  // coherent sub-pixel rays: tried, and how often the first answer was not the nearest
-};
 struct LevelStats {
     std::string name;
     double seconds = 0;  // time in which any thread worked on the level

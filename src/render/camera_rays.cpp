@@ -1,0 +1,36 @@
+#include "render/camera_rays.h"
+
+namespace crescente::render {
+
+CameraRays::CameraRays(const scene::Camera& camera, int width, int height)
+    : position_(camera.position),
+      forward_(normalize(camera.target - camera.position)),
+      orthographic_(camera.projection == scene::Projection::orthographic),
+      near_(camera.near),
+      width_(width),
+      height_(height) {
+    const double half = orthographic_ ? camera.height / 2 : std::tan(camera.field_of_view / 2);
+    right_ = normalize(cross(forward_, camera.up));
+    up_ = cross(right_, forward_) * half;
+    right_ *= half * width * camera.pixel_aspect / height;
+}
+
+geometry::Ray CameraRays::through(double x, double y) const {
+    const double sx = 2 * x / width_ - 1, sy = 1 - 2 * y / height_;
+    geometry::Ray ray;
+    const Vec3 across = right_ * sx + up_ * sy;
+    if (orthographic_) {
+        ray.origin = position_ + across;
+        ray.direction = forward_;
+        ray.t_min = near_;
+    } else {
+        ray.origin = position_;
+        ray.direction = normalize(forward_ + across);
+        ray.t_min = near_ / dot(ray.direction, forward_);
+    }
+    return ray;
+}
+
+Vec3 CameraRays::to_viewer(Vec3 point) const { return orthographic_ ? -forward_ : normalize(position_ - point); }
+
+}  // namespace crescente::render

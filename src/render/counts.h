@@ -1,0 +1,30 @@
+// Counted work: what was traced and tried.
+#pragma once
+
+#include <cstdint>
+
+namespace crescente::render {
+
+struct RayCounts {
+    std::uint64_t camera = 0, reflected = 0, refracted = 0, shadow = 0;
+
+    std::uint64_t total() const { return camera + reflected + refracted + shadow; }
+    RayCounts& operator+=(const RayCounts& other) {
+        camera += other.camera, reflected += other.reflected, refracted += other.refracted, shadow += other.shadow;
+        return *this;
+    }
+};
+
+struct TestCounts {
+    std::uint64_t box_tests = 0, shape_tests = 0;         // box tests: kay-kajiya only
+    std::uint64_t shadow_cache_hits = 0;
+    std::uint64_t shortcut_rays = 0, shortcut_wrong = 0;  // coherent sub-pixel rays: answered by the pixel's own objects, and how often that was not the nearest
+
+    TestCounts& operator+=(const TestCounts& other) {
+        box_tests += other.box_tests, shape_tests += other.shape_tests, shadow_cache_hits += other.shadow_cache_hits;
+        shortcut_rays += other.shortcut_rays, shortcut_wrong += other.shortcut_wrong;
+        return *this;
+    }
+};
+
+}  // namespace crescente::render

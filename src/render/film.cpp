@@ -1,0 +1,149 @@
+#include "render/film.h"
+
+#include <cstdint>
+
+namespace crescente::render {
+namespace {
+
+Rgb mean_of(const Tile& tile, const std::vector<Rgb>& radiance, const Quad& quad) {
+    Rgb sum;
+    if (quad.parts == no_node) {
+        for (const std::uint32_t root : quad.corners) sum += radiance[root];
+    } else {
+        for (std::uint32_t k = 0; k < 4; ++k) sum += mean_of(tile, radiance, tile.quads[quad.parts + k]);
+    }
+    return sum * 0.25f;
+}
+
+std::uint32_t samples_in(const Tile& tile, const Quad& quad) {
+    if (quad.parts == no_node) return 1;
+    std::uint32_t sum = 0;
+    for (std::uint32_t k = 0; k < 4; ++k) sum += samples_in(tile, tile.quads[quad.parts + k]);
+    return sum;
+}
+
+// The step of the finest grid that is whole: every corner of it has a root. 0: none.
+int whole_grid(const Tile& tile) {
+    for (int step = 1; step <= 8; step *= 2) {
+        bool whole = true;
+        for (int y = 0; whole && y <= tile.height; ++y) {
+            if (y % step && y != tile.height) continue;
+            for (int x = 0; whole && x <= tile.width; ++x) {
+                if (x % step == 0 || x == tile.width) whole = tile.corner(x, y) != no_node;
+            }
+        }
+        if (whole) return step;
+    }
+    return 0;
+}
+
+// Bilinear between the corners of a coarse grid, at the middle of each pixel.
+std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance, int step) {
+    std::vector<Rgb> pixels;
+    pixels.reserve(static_cast<std::size_t>(tile.width) * tile.height);
+    for (int y = 0; y < tile.height; ++y) {
+        const int y0 = y / step * step, y1 = std::min(y0 + step, tile.height);
+        const float fy = (static_cast<float>(y - y0) + 0.5f) / static_cast<float>(y1 - y0);
+        for (int x = 0; x < tile.width; ++x) {
+            const int x0 = x / step * step, x1 = std::min(x0 + step, tile.width);
+            const float fx = (static_cast<float>(x - x0) + 0.5f) / static_cast<float>(x1 - x0);
+            const auto at = [&](int i, int j) { return radiance[tile.corner(i, j)]; };
+            pixels.push_back(mix(mix(at(x0, y0), at(x1, y0), fx), mix(at(x0, y1), at(x1, y1), fx), fy));
+        }
+    }
+    return pixels;
+}
+
+}  // namespace
+
+std::vector<Rgb> develop(const Tile& tile) {
+    if (tile.pixels_stage > tile.stage) return tile.pixels;
+    const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
+    const int step = tile.corners.empty() ? 0 : whole_grid(tile);
+    if (step == 0) return std::vector<Rgb>(count);
+    const std::vector<Rgb> radiance = radiances(tile);
+    if (step > 1) return interpolate(tile, radiance, step);
+    std::vector<Rgb> pixels;
+    pixels.reserve(count);
+    if (!tile.quads.empty()) {
+        for (std::size_t i = 0; i < count; ++i) pixels.push_back(mean_of(tile, radiance, tile.quads[i]));
+        return pixels;
+    }
+    for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) {
+            pixels.push_back((radiance[tile.corner(x, y)] + radiance[tile.corner(x + 1, y)] + radiance[tile.corner(x, y + 1)] +
+                              radiance[tile.corner(x + 1, y + 1)]) * 0.25f);
+        }
+    }
+    return pixels;
+}
+
+scene::Image blank_image(int width, int height, bool all_layers) {
+    scene::Image image{width, height, {}};
+    const auto add = [&](const char* name, std::vector<std::string> channels) {
+        const std::size_t values = static_cast<std::size_t>(width) * height * channels.size();
+        image.layers.push_back({name, std::move(channels), std::vector<float>(values)});
+    };
+    add("color", {"R", "G", "B"});
+    if (!all_layers) return image;
+    add("depth", {"Z"});
+    add("position", {"X", "Y", "Z"});
+    add("normal", {"X", "Y", "Z"});
+    add("albedo", {"R", "G", "B"});
+    add("object", {"id"});
+    add("material", {"id"});
+    add("influence", {"R", "G", "B"});
+    add("level", {"L"});
+    add("samples", {"N"});
+    return image;
+}
+
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image) {
+    const std::vector<Rgb> pixels = develop(tile);
+    for (int y = 0; y < tile.height; ++y) {
+        float* row = &image.layers[0].values[3 * (static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0)];
+        for (int x = 0; x < tile.width; ++x) {
+            const Rgb& pixel = pixels[static_cast<std::size_t>(y) * tile.width + x];
+            row[3 * x] = pixel.r, row[3 * x + 1] = pixel.g, row[3 * x + 2] = pixel.b;
+        }
+    }
+    if (image.layers.size() == 1 || tile.corners.empty()) return;
+
+    const float level = tile.stage == 0 ? 0.0f : static_cast<float>(level_of_stage[static_cast<std::size_t>(tile.stage - 1)]);
+    for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) {
+            const std::uint32_t root = tile.corner(x, y);
+            if (root == no_node) continue;
+            const std::size_t pixel = static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0 + x;
+            const auto set = [&](std::size_t layer, std::initializer_list<double> values) {
+                std::size_t k = pixel * values.size();
+                for (const double v : values) image.layers[layer].values[k++] = static_cast<float>(v);
+            };
+            const Node& node = tile.nodes[root];
+            set(8, {level});
+            set(9, {double(tile.quads.empty() ? 1u : samples_in(tile, tile.quads[static_cast<std::size_t>(y) * tile.width + x]))});
+            // What reflections and refractions together weigh in the pixel.
+            Rgb left;
+            for (const std::uint32_t child : {node.reflected, node.refracted}) {
+                if (child != no_node) left += tile.nodes[child].weight;
+            }
+            set(7, {left.r, left.g, left.b});
+            if (node.left_scene()) {
+                set(1, {std::numeric_limits<double>::infinity()});
+                set(5, {-1});
+                set(6, {-1});
+                continue;
+            }
+            const Vec3 view = node.position - world.camera.position();
+            set(1, {dot(view, world.camera.forward())});
+            set(2, {node.position.x, node.position.y, node.position.z});
+            set(3, {node.normal[0], node.normal[1], node.normal[2]});
+            const Rgb& albedo = world.lobes[node.material].albedo;
+            set(4, {albedo.r, albedo.g, albedo.b});
+            set(5, {double(world.node_of_instance[node.instance])});
+            set(6, {double(node.material)});
+        }
+    }
+}
+
+}  // namespace crescente::render

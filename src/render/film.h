@@ -1,0 +1,22 @@
+// From trees to pixels.
+#pragma once
+
+#include <span>
+
+#include "render/forest.h"
+#include "render/world.h"
+#include "scene/image.h"
+
+namespace crescente::render {
+
+// The colours of a tile's pixels, row by row, as its trees stand: the mean of a pixel's corners, or of its parts where it was split.
+// Before all corners are there, coarser ones are interpolated. Black for a tile without any.
+std::vector<Rgb> develop(const Tile& tile);
+
+// Names, channels and room for the layers of a picture; see scene/image.h.
+scene::Image blank_image(int width, int height, bool all_layers);
+
+// Writes what the tile knows into every layer of the image. `level` is the level that each finished stage belongs to.
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image);
+
+}  // namespace crescente::render

@@ -1,0 +1,100 @@
+// The forest of rays of one tile: every ray tree that its pixels' corners grew, kept. A tile with its trees is the unit of work, of
+// memory and of distribution; it depends on no other tile (it repeats the corners on its border).
+//
+// Related work that kept rays: Séquin and Smyrl 1989, "Parameterized Ray Tracing"; Brière and Poulin 1996, "Hierarchical
+// View-dependent Structures for Interactive Scene Manipulation"; Bala, Dorsey and Teller 1999, "Radiance Interpolants".
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "math/color.h"
+#include "math/vec.h"
+#include "render/counts.h"
+
+namespace crescente::render {
+
+using namespace math;
+
+inline constexpr std::uint32_t no_node = 0xffffffff;
+
+// Where a ray ended, and what the light does there.
+struct Node {
+    Vec3 position;                   // the hit; for a ray that left the scene, its direction
+    std::array<float, 3> normal{};   // shading normal on the side of the viewer
+    std::uint32_t geometric_normal = 0;  // on the side of the viewer, octahedral
+    float offset = 0;                // how far from position, along the geometric normal, rays may start without meeting the surface again
+    std::uint32_t instance = no_node;    // no_node: the ray left the scene
+    std::uint32_t primitive = 0;
+    std::uint32_t material = 0;      // index of lobes
+    std::uint32_t parent = no_node;  // no_node: the root, ended by a camera ray
+    std::uint32_t reflected = no_node, refracted = no_node;  // children, after this node in the tile
+    Rgb weight{1, 1, 1};             // of this node's radiance in the parent's
+    Rgb local;                       // radiance towards the viewer, without the children
+    std::uint8_t depth = 0;          // bounces
+    bool inside = false;             // met from inside
+    bool shadowed = false;           // lights have been tried
+
+    bool left_scene() const { return instance == no_node; }
+};
+static_assert(sizeof(Node) == 96);
+
+// How a light's way to a node fared; one byte for each node and light.
+enum class Share : std::uint8_t {
+    untried,   // counts as clear: level 0 lights without shadows
+    behind,    // the light does not reach the surface's side: no ray
+    blocked,
+    clear,
+    filtered,  // the RGB share is in Tile::filtered
+};
+
+// A ray that may still be grown.
+struct Pending {
+    std::uint32_t parent;
+    Rgb weight;
+    float influence;  // largest component, at the pixel
+    bool refracted;
+};
+
+// A pixel, or a part of one, with its corners: top left, top right, bottom left, bottom right (roots). Split ones have four parts in
+// the same order.
+struct Quad {
+    std::array<std::uint32_t, 4> corners;
+    std::uint32_t parts = no_node;  // index of the first of four
+};
+
+struct Tile {
+    int x0 = 0, y0 = 0, width = 0, height = 0;  // pixels of the picture
+
+    std::vector<Node> nodes;
+    std::vector<Share> shares;                             // lights of node i from i * lights
+    std::unordered_map<std::uint64_t, Rgb> filtered;       // by node * lights + light
+    std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
+    std::vector<Pending> pending;
+    std::vector<Quad> quads;                               // the first width x height are the pixels; empty before the first split
+    std::unordered_map<std::uint64_t, std::uint32_t> subpixel_roots;  // by lattice point; only while pixels are split
+
+    int stage = 0;           // stages of growth that are complete
+    std::size_t cursor = 0;  // work of the next stage that is done
+    std::vector<std::uint32_t> todo;  // what the next stage works through: its meaning is the stage's
+    std::vector<Rgb> pixels;  // what the trees gave before they were dropped
+    int pixels_stage = -1;    // stages that were complete then; -1: never dropped
+
+    RayCounts rays;
+    TestCounts tests;
+
+    std::size_t bytes() const;
+    int shown_stage() const { return stage > pixels_stage ? stage : pixels_stage; }
+    std::uint32_t& corner(int x, int y) { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
+    std::uint32_t corner(int x, int y) const { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
+};
+
+// The product of the weights from the pixel down to the node.
+Rgb influence(const Tile& tile, std::uint32_t node);
+
+// Radiance of every node with its children, by node: what the trees say now.
+std::vector<Rgb> radiances(const Tile& tile);
+
+}  // namespace crescente::render

@@ -1,0 +1,74 @@
+// Growing the trees of a tile: camera rays become roots, nodes get their light, pending rays become children. All levels of realism are made of
+// these steps. What they compute depends on the tile alone, so the order of tiles, threads and interruptions never shows.
+#pragma once
+
+#include <span>
+
+#include "render/deadline.h"
+#include "render/forest.h"
+#include "render/world.h"
+
+namespace crescente::render {
+
+// A point of the picture in fractions of a pixel: pixel corner (i, j) is (i << subpixel_bits, j << subpixel_bits).
+struct LatticePoint {
+    std::uint32_t x, y;
+};
+inline constexpr int subpixel_bits = 6;  // more than the most splits that the settings allow
+
+// Work is cut into chunks of this many rays, between which a deadline is looked at.
+inline constexpr std::size_t chunk_size = 256;
+
+class Growth {
+public:
+    Growth(const World& world, Tile& tile) : world_(world), settings_(world.scene.settings), tile_(tile) {}
+
+    const World& world() const { return world_; }
+    const scene::Settings& settings() const { return settings_; }
+    Tile& tile() { return tile_; }
+
+    // Traces camera rays and appends their roots, in order, without light. Returns the index of the first. `tried_first`, if not
+    // empty, lists for each point four roots whose objects are tried first (coherent sub-pixel rays).
+    std::uint32_t add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first = {});
+
+    // Computes the local light of nodes; with shadows, the way of every light to them is traced first.
+    void light(std::span<const std::uint32_t> nodes, bool shadows, accel::Coherence coherence);
+
+    // Appends to `pending` the rays that nodes spawn, if the depth bound lets them.
+    void spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) const;
+
+    // Traces pending rays into child nodes with their light, and appends the rays that these spawn to `next`.
+    void grow(std::span<const Pending> rays, std::vector<Pending>& next);
+
+    // Grows everything in `pending` of more influence than `threshold`, generation by generation; the rest stays in `pending`. Stops
+    // between chunks when the deadline passes and returns false; calling again goes on.
+    bool grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline);
+
+private:
+    struct Seed {  // what a new node inherits
+        std::uint32_t parent = no_node;
+        Rgb weight{1, 1, 1};
+        std::uint8_t depth = 0;
+        const Rgb* attenuation = nullptr;  // of the medium that the ray went through
+    };
+    void append(const geometry::Ray& ray, const accel::Hit& hit, const Seed& seed, double picture_height);
+    void trace_shadows(std::size_t light, std::span<const std::uint32_t> nodes, accel::Coherence coherence);
+    Rgb passage(std::span<const accel::Crossing> crossings, const geometry::Ray& ray) const;
+    Vec3 to_viewer(const Node& node) const;
+
+    const World& world_;
+    const scene::Settings& settings_;
+    Tile& tile_;
+
+    // Scratch, kept between chunks.
+    std::vector<geometry::Ray> rays_;
+    std::vector<accel::Hit> hits_;
+    std::vector<std::uint32_t> shadow_nodes_;
+    std::vector<accel::Crossing> crossings_;
+    std::vector<Vec3> viewers_;
+    std::vector<Incident> incidents_;
+    std::vector<std::uint32_t> fresh_;
+    std::vector<accel::Hit> last_occluder_;  // shadow cache: by light and depth
+};
+
+}  // namespace crescente::render

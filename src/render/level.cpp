@@ -1,0 +1,20 @@
+#include "render/level.h"
+
+#include "render/level_edges.h"
+#include "render/level_reflections.h"
+#include "render/level_shadows.h"
+#include "render/level_visible.h"
+
+namespace crescente::render {
+
+std::span<const LevelKind> levels() {
+    static constexpr LevelKind table[] = {
+        {scene::Level::visible, "visible", visible_stages, advance_visible},
+        {scene::Level::shadows, "shadows", shadows_stages, advance_shadows},
+        {scene::Level::reflections, "reflections", reflections_stages, advance_reflections},
+        {scene::Level::edges, "edges", edges_stages, advance_edges},
+    };
+    return table;
+}
+
+}  // namespace crescente::render

@@ -1,0 +1,140 @@
+#include "render/level_edges.h"
+
+#include <numeric>
+
+namespace crescente::render {
+namespace {
+
+// A scale on which equal steps look about equal: square root of the clipped radiance, as display gamma does.
+Rgb perceived(Rgb radiance) {
+    const auto f = [](float v) { return std::sqrt(std::clamp(v, 0.0f, 1.0f)); };
+    return {f(radiance.r), f(radiance.g), f(radiance.b)};
+}
+
+bool differ(const std::array<Rgb, 4>& corners, float contrast) {
+    Rgb low = corners[0], high = corners[0];
+    for (const Rgb& c : corners) {
+        low = {std::min(low.r, c.r), std::min(low.g, c.g), std::min(low.b, c.b)};
+        high = {std::max(high.r, c.r), std::max(high.g, c.g), std::max(high.b, c.b)};
+    }
+    return max_component(high - low) > contrast;
+}
+
+void make_pixel_quads(Tile& tile) {
+    tile.quads.reserve(static_cast<std::size_t>(tile.width) * tile.height);
+    for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) {
+            tile.quads.push_back({{tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)}, no_node});
+        }
+    }
+}
+
+// Where the quads of one depth stand on the lattice of the picture.
+struct Place {
+    std::uint32_t quad;
+    LatticePoint at;
+};
+
+// The quads of this depth (0: pixels), in a fixed order.
+std::vector<Place> quads_at_depth(const Tile& tile, int depth) {
+    std::vector<Place> places;
+    std::uint32_t i = 0;
+    for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x, ++i) {
+            places.push_back({i, {static_cast<std::uint32_t>(tile.x0 + x) << subpixel_bits, static_cast<std::uint32_t>(tile.y0 + y) << subpixel_bits}});
+        }
+    }
+    for (int d = 0; d < depth; ++d) {
+        const std::uint32_t half = (1u << subpixel_bits) >> (d + 1);
+        std::vector<Place> inner;
+        for (const Place& place : places) {
+            const std::uint32_t parts = tile.quads[place.quad].parts;
+            if (parts == no_node) continue;
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                inner.push_back({parts + k, {place.at.x + (k & 1 ? half : 0), place.at.y + (k & 2 ? half : 0)}});
+            }
+        }
+        places = std::move(inner);
+    }
+    return places;
+}
+
+std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
+
+// The five points that split a quad of this size: middle of the top, left, centre, right, bottom.
+std::array<LatticePoint, 5> split_points(LatticePoint at, std::uint32_t size) {
+    const std::uint32_t half = size / 2;
+    return {{{at.x + half, at.y}, {at.x, at.y + half}, {at.x + half, at.y + half}, {at.x + size, at.y + half}, {at.x + half, at.y + size}}};
+}
+
+}  // namespace
+
+std::vector<Stage> edges_stages(const scene::Settings& settings) {
+    std::vector<Stage> stages;
+    for (int depth = 1; depth <= settings.supersampling; ++depth) stages.push_back({scene::Level::edges, double(depth), 1.5});
+    return stages;
+}
+
+bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline) {
+    Tile& tile = growth.tile();
+    const int depth = static_cast<int>(stage.parameter) - 1;  // of the quads that may be split now
+    const std::uint32_t size = (1u << subpixel_bits) >> depth;
+    if (tile.quads.empty()) make_pixel_quads(tile);
+    const std::vector<Place> places = quads_at_depth(tile, depth);
+
+    if (tile.cursor == 0) {  // decide once, from what the stages before left
+        const std::vector<Rgb> radiance = radiances(tile);
+        tile.todo.clear();
+        for (std::uint32_t i = 0; i < places.size(); ++i) {
+            std::array<Rgb, 4> corners;
+            for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[tile.quads[places[i].quad].corners[k]]);
+            if (differ(corners, static_cast<float>(growth.settings().contrast))) tile.todo.push_back(i);
+        }
+        tile.cursor = 1;
+    }
+
+    // New corners, a chunk at a time, each grown to the end. `todo` lists places by index; the cursor is one more than those done.
+    const bool shortcut = growth.settings().subpixel_shortcut != scene::SubpixelShortcut::off;
+    while (tile.cursor - 1 < tile.todo.size()) {
+        std::vector<LatticePoint> points;
+        std::vector<std::array<std::uint32_t, 4>> tried_first;
+        const std::size_t end = std::min(tile.todo.size(), tile.cursor - 1 + chunk_size / 4);
+        for (std::size_t i = tile.cursor - 1; i < end; ++i) {
+            const Place& place = places[tile.todo[i]];
+            for (const LatticePoint& p : split_points(place.at, size)) {
+                const auto [entry, fresh] = tile.subpixel_roots.try_emplace(key_of(p), static_cast<std::uint32_t>(tile.nodes.size() + points.size()));
+                if (!fresh) continue;
+                points.push_back(p);
+                if (shortcut) tried_first.push_back(tile.quads[place.quad].corners);
+            }
+        }
+        const std::uint32_t first = growth.add_roots(points, tried_first);
+        std::vector<std::uint32_t> roots(points.size());
+        std::iota(roots.begin(), roots.end(), first);
+        growth.light(roots, true, accel::Coherence::coherent);
+        std::vector<Pending> pending;
+        growth.spawn(roots, pending);
+        growth.grow_above(pending, growth.settings().threshold, Deadline::never());
+        tile.pending.insert(tile.pending.end(), pending.begin(), pending.end());
+        tile.cursor = end + 1;
+        if (tile.cursor - 1 < tile.todo.size() && deadline.passed()) return false;
+    }
+
+    for (const std::uint32_t i : tile.todo) {
+        const Place& place = places[i];
+        std::array<std::uint32_t, 5> m;
+        const auto points = split_points(place.at, size);
+        for (int k = 0; k < 5; ++k) m[k] = tile.subpixel_roots.at(key_of(points[k]));
+        const auto c = tile.quads[place.quad].corners;
+        tile.quads[place.quad].parts = static_cast<std::uint32_t>(tile.quads.size());
+        tile.quads.push_back({{c[0], m[0], m[1], m[2]}, no_node});
+        tile.quads.push_back({{m[0], c[1], m[2], m[3]}, no_node});
+        tile.quads.push_back({{m[1], m[2], c[2], m[4]}, no_node});
+        tile.quads.push_back({{m[2], m[3], m[4], c[3]}, no_node});
+    }
+    tile.todo.clear();
+    if (stage.parameter == growth.settings().supersampling) tile.subpixel_roots = {};
+    return true;
+}
+
+}  // namespace crescente::render

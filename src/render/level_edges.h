@@ -1,0 +1,12 @@
+// Level 3: adaptive supersampling. A pixel whose corners differ is split in four, recursively (after Whitted 1980, "An Improved
+// Illumination Model for Shaded Display", section on antialiasing); new corners are shared by neighbours.
+#pragma once
+
+#include "render/level.h"
+
+namespace crescente::render {
+
+std::vector<Stage> edges_stages(const scene::Settings& settings);
+bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline);
+
+}  // namespace crescente::render

@@ -1,0 +1,134 @@
+#include "render/lobes.h"
+
+namespace crescente::render {
+namespace {
+
+// Rough metals and glossy plastics reflect in a lobe that only a distributed level can sample. Until then the mirror ray stands for it where the
+// lobe is narrow, and fades out with roughness; the environment's blurred reflection takes the rest.
+float mirror_share_of(double roughness) {
+    constexpr double widest = 0.4;
+    const double s = std::max(0.0, 1.0 - roughness / widest);
+    return static_cast<float>(s * s);
+}
+
+Lobes compile_classic(const scene::ClassicMaterial& m) {
+    Lobes lobes;
+    lobes.emission = m.emission + m.ambient;
+    lobes.diffuse = m.diffuse;
+    lobes.ambient_diffuse = m.diffuse;
+    lobes.albedo = m.diffuse;
+    lobes.highlight = m.specular;
+    lobes.exponent = static_cast<float>(m.shininess);
+    if (!is_black(m.specular)) {
+        lobes.highlight_lobe = m.highlight == scene::Highlight::phong ? HighlightLobe::phong : HighlightLobe::blinn;
+    }
+    lobes.mirror = m.reflection;
+    lobes.refraction = m.transmission;
+    lobes.ior = m.ior;
+    lobes.attenuation = m.attenuation;
+    lobes.fresnel = m.fresnel ? Fresnel::dielectric : Fresnel::none;
+    lobes.shadow_filter = m.transmission;
+    return lobes;
+}
+
+Lobes compile_physical(const scene::PhysicalMaterial& m) {
+    const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
+    const auto transmission = static_cast<float>(m.transmission) * (1 - metallic);
+    const double r0 = (m.ior - 1) / (m.ior + 1);
+    Lobes lobes;
+    lobes.emission = m.emissive * opacity;
+    const Rgb diffuse = m.base_color * ((1 - metallic) * (1 - transmission) * opacity);
+    lobes.diffuse = diffuse * static_cast<float>(1 / pi);
+    lobes.ambient_diffuse = diffuse;
+    lobes.albedo = m.base_color;
+    const Rgb f0 = mix(gray(static_cast<float>(r0 * r0)), m.base_color, metallic) * opacity;
+    lobes.roughness = static_cast<float>(m.roughness);
+    lobes.alpha = std::max(0.002f, lobes.roughness * lobes.roughness);
+    lobes.highlight = f0;
+    lobes.highlight_lobe = HighlightLobe::ggx;
+    lobes.mirror_share = mirror_share_of(m.roughness);
+    lobes.ambient_specular = f0;
+    if (transmission > 0) {
+        lobes.fresnel = Fresnel::dielectric;
+        lobes.mirror = gray(1);
+        lobes.mirror_share = 1;
+        lobes.refraction = m.base_color * transmission;
+        lobes.ior = m.ior;
+        lobes.attenuation = m.attenuation;
+        lobes.ambient_specular = {};
+    } else {
+        lobes.fresnel = Fresnel::schlick;
+        if (lobes.mirror_share > 0) lobes.mirror = f0;
+        lobes.refraction = gray(1 - opacity);
+    }
+    // Light through a pane loses about one Fresnel reflection at each crossing.
+    lobes.shadow_filter = m.base_color * (transmission * opacity * static_cast<float>(1 - r0 * r0)) + gray(1 - opacity);
+    return lobes;
+}
+
+// Trowbridge-Reitz distribution with the height-correlated Smith term (Walter et al. 2007; Heitz 2014), Schlick's Fresnel.
+Rgb ggx(const Lobes& lobes, double n_v, double n_l, double n_h, double v_h) {
+    const double a2 = double(lobes.alpha) * lobes.alpha;
+    const double d = n_h * n_h * (a2 - 1) + 1;
+    const double distribution = a2 / (pi * d * d);
+    const double smith = n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2);
+    const double m = 1 - v_h, m5 = m * m * m * m * m;
+    const Rgb f = lobes.highlight + (gray(1) - lobes.highlight) * static_cast<float>(m5);
+    return f * static_cast<float>(distribution * 0.5 / std::max(smith, 1e-9) * n_l);
+}
+
+}  // namespace
+
+Lobes compile(const scene::Material& material) {
+    if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
+    return compile_physical(std::get<scene::PhysicalMaterial>(material.model));
+}
+
+Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
+    Rgb result = lobes.diffuse * static_cast<float>(cosine);
+    if (!with_highlight || lobes.highlight_lobe == HighlightLobe::none) return result;
+    if (lobes.highlight_lobe == HighlightLobe::phong) {
+        const double mirrored = 2 * cosine * dot(normal, to_viewer) - dot(to_light, to_viewer);
+        if (mirrored > 0) result += lobes.highlight * std::pow(static_cast<float>(mirrored), lobes.exponent);
+        return result;
+    }
+    const Vec3 half = normalize(to_light + to_viewer);
+    const double n_h = std::max(0.0, dot(normal, half));
+    if (lobes.highlight_lobe == HighlightLobe::blinn) return result + lobes.highlight * std::pow(static_cast<float>(n_h), lobes.exponent);
+    return result + ggx(lobes, std::max(1e-4, dot(normal, to_viewer)), cosine, n_h, std::max(0.0, dot(to_viewer, half)));
+}
+
+double fresnel_dielectric(double cosine, double eta) {
+    const double sin2 = (1 - cosine * cosine) / (eta * eta);
+    if (sin2 >= 1) return 1;
+    const double transmitted = std::sqrt(1 - sin2);
+    const double parallel = (eta * cosine - transmitted) / (eta * cosine + transmitted);
+    const double perpendicular = (cosine - eta * transmitted) / (cosine + eta * transmitted);
+    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}
+
+ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
+    ChildWeights weights{lobes.mirror, lobes.refraction};
+    const double eta = inside ? 1 / lobes.ior : lobes.ior;
+    switch (lobes.fresnel) {
+        case Fresnel::none:
+            if (lobes.refracts() && (1 - cosine * cosine) >= eta * eta) {  // total internal reflection: all goes back
+                weights = {lobes.mirror + lobes.refraction, {}};
+            }
+            break;
+        case Fresnel::dielectric: {
+            const auto f = static_cast<float>(fresnel_dielectric(cosine, eta));
+            weights = {lobes.mirror * f, lobes.refraction * (1 - f)};
+            break;
+        }
+        case Fresnel::schlick: {
+            if (!lobes.mirrors()) break;
+            const double m = 1 - cosine, m5 = m * m * m * m * m;
+            weights.reflected = (lobes.mirror + (gray(1) - lobes.mirror) * static_cast<float>(m5)) * lobes.mirror_share;
+            break;
+        }
+    }
+    return weights;
+}
+
+}  // namespace crescente::render

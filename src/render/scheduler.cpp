@@ -1,0 +1,47 @@
+#include "render/scheduler.h"
+
+#include <algorithm>
+
+namespace crescente::render {
+
+std::vector<Work> next_work(std::span<const TileState> tiles, int stages, bool ceiling, std::size_t batch) {
+    std::vector<Work> work;
+    const std::size_t most = ceiling ? batch : tiles.size();
+    const auto kept = [](const TileState& t) { return t.stage == t.shown_stage; };
+    int lowest = stages;
+    for (const TileState& t : tiles) {
+        if (kept(t)) lowest = std::min(lowest, t.stage);
+    }
+    if (lowest < stages) {
+        for (std::uint32_t i = 0; i < tiles.size() && work.size() < most; ++i) {
+            if (kept(tiles[i]) && tiles[i].stage == lowest) work.push_back({i, lowest + 1});
+        }
+        return work;
+    }
+    for (std::uint32_t i = 0; i < tiles.size() && work.size() < most; ++i) {
+        if (tiles[i].shown_stage < stages) work.push_back({i, stages});
+    }
+    return work;
+}
+
+std::vector<std::uint32_t> tiles_to_drop(std::span<const TileState> tiles, int stages, std::uint64_t ceiling, std::uint64_t floor) {
+    std::uint64_t total = 0;
+    std::vector<std::uint32_t> order;
+    for (std::uint32_t i = 0; i < tiles.size(); ++i) {
+        total += tiles[i].bytes;
+        if (tiles[i].stage > 0) order.push_back(i);
+    }
+    std::vector<std::uint32_t> drop;
+    if (total <= ceiling) return drop;
+    const auto rank = [&](std::uint32_t i) { return tiles[i].stage >= stages ? 0 : 1 + tiles[i].stage; };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) != rank(b) ? rank(a) < rank(b) : a > b; });
+    for (const std::uint32_t i : order) {
+        if (total <= ceiling) break;
+        if (tiles[i].bytes <= floor) continue;
+        total -= tiles[i].bytes - floor;
+        drop.push_back(i);
+    }
+    return drop;
+}
+
+}  // namespace crescente::render

@@ -1,0 +1,231 @@
+#include "render/session.h"
+
+#include <algorithm>
+
+#include "parallel/pool.h"
+#include "render/describe.h"
+#include "render/film.h"
+#include "render/level.h"
+#include "render/scheduler.h"
+
+namespace crescente::render {
+
+using Clock = std::chrono::steady_clock;
+
+struct Session::State {
+    std::unique_ptr<World> world;
+    mutable parallel::Pool pool;
+    std::vector<Stage> stages;
+    std::vector<scene::Level> level_of_stage;
+    std::vector<Tile> tiles;
+    std::vector<double> level_seconds;     // by level
+    std::vector<RayCounts> level_rays;     // by level
+    double build_seconds = 0, render_seconds = 0;
+    std::uint64_t peak_bytes = 0, drops = 0;
+
+    int tiles_across() const { return (width() + tile_size() - 1) / tile_size(); }
+    int width() const { return world->scene.settings.width; }
+    int height() const { return world->scene.settings.height; }
+    int tile_size() const { return world->scene.settings.tile; }
+
+    void plan();
+    bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
+    Tile regrown(const Tile& tile) const;
+    void drop(Tile& tile) const;
+    std::vector<TileState> tile_states() const;
+    Progress progress(const std::vector<TileState>& states) const;
+};
+
+namespace {
+
+const LevelKind& kind_of(scene::Level level) { return levels()[static_cast<std::size_t>(level)]; }
+
+Tile blank_tile(const Tile& place) {
+    Tile tile;
+    tile.x0 = place.x0, tile.y0 = place.y0, tile.width = place.width, tile.height = place.height;
+    return tile;
+}
+
+}  // namespace
+
+void Session::State::plan() {
+    const scene::Settings& settings = world->scene.settings;
+    for (const LevelKind& kind : levels()) {
+        if (kind.level > settings.level) break;
+        for (const Stage& stage : kind.stages(settings)) {
+            stages.push_back(stage);
+            level_of_stage.push_back(kind.level);
+        }
+    }
+    level_seconds.resize(levels().size());
+    level_rays.resize(levels().size());
+    for (int y = 0; y < height(); y += tile_size()) {
+        for (int x = 0; x < width(); x += tile_size()) {
+            Tile& tile = tiles.emplace_back();
+            tile.x0 = x, tile.y0 = y;
+            tile.width = std::min(tile_size(), width() - x), tile.height = std::min(tile_size(), height() - y);
+        }
+    }
+}
+
+bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadline) const {
+    Growth growth(*world, tile);
+    while (tile.stage < until) {
+        const Stage& stage = stages[static_cast<std::size_t>(tile.stage)];
+        if (!kind_of(stage.level).advance(growth, stage, deadline)) return false;
+        tile.cursor = 0;
+        ++tile.stage;
+        if (tile.stage < until && deadline.passed()) return false;
+    }
+    return true;
+}
+
+// The tile with its trees as they were when they were dropped.
+Tile Session::State::regrown(const Tile& tile) const {
+    Tile copy = blank_tile(tile);
+    advance_tile(copy, tile.shown_stage(), Deadline::never());
+    return copy;
+}
+
+void Session::State::drop(Tile& tile) const {
+    Tile rest = blank_tile(tile);
+    rest.pixels = develop(tile);
+    rest.pixels_stage = tile.shown_stage();
+    rest.rays = tile.rays;
+    rest.tests = tile.tests;
+    tile = std::move(rest);
+}
+
+std::vector<TileState> Session::State::tile_states() const {
+    std::vector<TileState> states;
+    states.reserve(tiles.size());
+    for (const Tile& tile : tiles) states.push_back({tile.stage, tile.shown_stage(), tile.bytes()});
+    return states;
+}
+
+Progress Session::State::progress(const std::vector<TileState>& states) const {
+    Progress progress{true, "", 0, true};
+    double total = 0, done = 0;
+    std::vector<double> cost_until{0};
+    for (const Stage& stage : stages) cost_until.push_back(total += stage.cost);
+    int lowest = static_cast<int>(stages.size());
+    for (const TileState& state : states) {
+        lowest = std::min(lowest, state.shown_stage);
+        done += cost_until[static_cast<std::size_t>(state.shown_stage)];
+    }
+    progress.first_picture = lowest > 0;
+    progress.done = lowest == static_cast<int>(stages.size());
+    progress.fraction = progress.done ? 1 : done / (total * static_cast<double>(states.size()));
+    progress.level = kind_of(stages[static_cast<std::size_t>(std::min<int>(lowest, static_cast<int>(stages.size()) - 1))].level).name;
+    return progress;
+}
+
+Expected<Session> Session::open(scene::Scene scene) {
+    const auto start = Clock::now();
+    const int threads = scene.settings.threads;
+    auto world = world_of(std::move(scene));
+    if (!world) return tl::unexpected(world.error());
+    auto state = std::make_unique<State>(State{std::move(*world), parallel::Pool(threads), {}, {}, {}, {}, {}});
+    state->plan();
+    state->build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return Session(std::move(state));
+}
+
+Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Progress Session::advance(const Deadline& deadline) {
+    State& s = *state_;
+    const auto start = Clock::now();
+    const auto ceiling = static_cast<std::uint64_t>(s.world->scene.settings.memory);
+    const int stages = static_cast<int>(s.stages.size());
+    const std::size_t batch = 4 * static_cast<std::size_t>(s.pool.threads());
+    std::vector<TileState> states = s.tile_states();
+    while (true) {
+        const std::vector<Work> work = next_work(states, stages, ceiling > 0, batch);
+        if (work.empty()) break;
+        const auto round = Clock::now();
+        const auto rays_of = [&] {
+            RayCounts sum;
+            for (const Work& w : work) sum += s.tiles[w.tile].rays;
+            return sum;
+        };
+        const RayCounts before = rays_of();
+        const auto level = static_cast<std::size_t>(s.stages[static_cast<std::size_t>(work[0].until - 1)].level);
+        s.pool.for_each(work.size(), [&](std::size_t i) {
+            if (!deadline.passed()) s.advance_tile(s.tiles[work[i].tile], work[i].until, deadline);
+        });
+        const RayCounts after = rays_of();
+        RayCounts& rays = s.level_rays[level];
+        rays.camera += after.camera - before.camera, rays.reflected += after.reflected - before.reflected;
+        rays.refracted += after.refracted - before.refracted, rays.shadow += after.shadow - before.shadow;
+        s.level_seconds[level] += std::chrono::duration<double>(Clock::now() - round).count();
+
+        states = s.tile_states();
+        std::uint64_t bytes = 0;
+        for (const TileState& state : states) bytes += state.bytes;
+        s.peak_bytes = std::max(s.peak_bytes, bytes);
+        if (ceiling > 0 && bytes > ceiling) {
+            const auto floor = sizeof(Rgb) * static_cast<std::uint64_t>(s.tile_size()) * static_cast<std::uint64_t>(s.tile_size());
+            const auto victims = tiles_to_drop(states, stages, ceiling, floor);
+            s.pool.for_each(victims.size(), [&](std::size_t i) { s.drop(s.tiles[victims[i]]); });
+            s.drops += victims.size();
+            states = s.tile_states();
+        }
+        if (deadline.passed()) break;
+    }
+    s.render_seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    return s.progress(states);
+}
+
+scene::Image Session::picture(bool all_layers) const {
+    const State& s = *state_;
+    scene::Image image = blank_image(s.width(), s.height(), all_layers);
+    s.pool.for_each(s.tiles.size(), [&](std::size_t i) {
+        const Tile& tile = s.tiles[i];
+        if (all_layers && tile.pixels_stage > tile.stage) {
+            expose(s.regrown(tile), *s.world, s.level_of_stage, image);
+        } else {
+            expose(tile, *s.world, s.level_of_stage, image);
+        }
+    });
+    return image;
+}
+
+Stats Session::stats() const {
+    const State& s = *state_;
+    Stats stats;
+    for (const Tile& tile : s.tiles) {
+        stats.rays += tile.rays;
+        stats.tests += tile.tests;
+        stats.nodes += tile.nodes.size();
+        stats.forest_bytes += tile.bytes();
+    }
+    for (const LevelKind& kind : levels()) {
+        if (kind.level > s.world->scene.settings.level) break;
+        const auto i = static_cast<std::size_t>(kind.level);
+        stats.levels.push_back({kind.name, s.level_seconds[i], s.level_rays[i]});
+    }
+    stats.peak_forest_bytes = std::max(s.peak_bytes, stats.forest_bytes);
+    stats.accelerator_bytes = s.world->accelerator->bytes();
+    stats.dropped_tiles = s.drops;
+    stats.bytes_per_pixel = static_cast<double>(stats.peak_forest_bytes) / (double(s.width()) * s.height());
+    stats.render_seconds = s.render_seconds;
+    stats.build_seconds = s.build_seconds;
+    stats.threads = s.pool.threads();
+    return stats;
+}
+
+const scene::Scene& Session::scene() const { return state_->world->scene; }
+
+std::string Session::describe(int x, int y) {
+    const State& s = *state_;
+    if (x < 0 || y < 0 || x >= s.width() || y >= s.height()) return {};
+    const Tile& tile = s.tiles[static_cast<std::size_t>(y / s.tile_size()) * s.tiles_across() + x / s.tile_size()];
+    if (tile.pixels_stage > tile.stage) return describe_pixel(s.regrown(tile), *s.world, x - tile.x0, y - tile.y0);
+    return describe_pixel(tile, *s.world, x - tile.x0, y - tile.y0);
+}
+
+}  // namespace crescente::render

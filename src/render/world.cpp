@@ -1,0 +1,48 @@
+#include "render/world.h"
+
+namespace crescente::render {
+namespace {
+
+Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings) {
+    switch (settings.accelerator) {
+        case scene::AcceleratorKind::linear: return accel::make_linear(instances);
+        case scene::AcceleratorKind::kay_kajiya:
+            return accel::make_kay_kajiya(instances, {settings.octant_rejection, settings.priority_queue});
+        case scene::AcceleratorKind::embree: break;
+    }
+    return accel::make_embree(instances, settings.threads);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
+    if (!scene.camera) return failure(ErrorKind::input, {"", "/camera", "the scene has no camera", ""});
+    const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false});
+    const scene::Scene& s = world->scene;
+    for (const scene::Material& material : s.materials) world->lobes.push_back(compile(material));
+    world->lobes.push_back(compile(scene::Material{}));
+    const auto default_material = static_cast<std::uint32_t>(world->lobes.size() - 1);
+
+    scene::for_each_appearance(s, [&](std::uint32_t node, const Affine& to_world, const std::vector<scene::MaterialId>& materials) {
+        world->first_slot.push_back(static_cast<std::uint32_t>(world->slots.size()));
+        bool opaque = true;
+        for (const scene::MaterialId id : materials) {
+            world->slots.push_back(id.valid() ? id.value : default_material);
+            opaque = opaque && world->lobes[world->slots.back()].opaque();
+        }
+        if (materials.empty()) world->slots.push_back(default_material);
+        world->filters_light = world->filters_light || !opaque;
+        world->instances.emplace_back(s.shapes[s.nodes[node].shape.value].shape, to_world, opaque);
+        world->node_of_instance.push_back(node);
+    });
+    for (const scene::Light& light : s.lights) world->lights.emplace_back(light);
+    if (s.environment) world->environment = *s.environment;
+
+    auto accelerator = make_accelerator(world->instances, s.settings);
+    if (!accelerator) return tl::unexpected(accelerator.error());
+    world->accelerator = std::move(*accelerator);
+    return world;
+}
+
+}  // namespace crescente::render

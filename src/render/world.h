@@ -1,0 +1,39 @@
+// A scene made ready for tracing: instances at their places, materials as lobes, lights, camera rays, and the accelerator.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "accel/accelerator.h"
+#include "base/error.h"
+#include "render/camera_rays.h"
+#include "render/light.h"
+#include "render/lobes.h"
+#include "scene/scene.h"
+
+namespace crescente::render {
+
+struct World {
+    scene::Scene scene;  // the shapes that the instances point into; must not move its shapes
+    std::vector<accel::Instance> instances;
+    std::vector<std::uint32_t> node_of_instance;  // index of the scene's node
+    std::vector<std::uint32_t> first_slot;        // by instance: where its materials begin in `slots`
+    std::vector<std::uint32_t> slots;             // index into lobes
+    std::vector<Lobes> lobes;                     // one for each material of the scene, and a default one at the end
+    std::vector<Light> lights;
+    scene::Environment environment;
+    CameraRays camera;
+    std::unique_ptr<accel::Accelerator> accelerator;
+    bool filters_light = false;  // some instance is not opaque
+
+    // Index into lobes of what a hit's surface is made of.
+    std::uint32_t material(std::uint32_t instance, std::uint32_t slot) const {
+        const std::uint32_t first = first_slot[instance], end = instance + 1 < first_slot.size() ? first_slot[instance + 1] : std::uint32_t(slots.size());
+        return slots[std::min(first + slot, end - 1)];
+    }
+};
+
+// Errors: no camera, an accelerator that cannot be built. The scene must be valid.
+Expected<std::unique_ptr<World>> world_of(scene::Scene scene);
+
+}  // namespace crescente::render
