@@ -35,13 +35,15 @@ SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {
     const auto& triangle = triangles[primitive];
     const Vec3 a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
     const Vec3 ab = b - a, ac = c - a, ap = position - a;
-    const Vec3 normal = cross(ab, ac);
+    const Vec3 normal = exact_cross(ab, ac);
     const double area2 = dot(normal, normal);
     SurfacePoint point;
     point.normal = normal / std::sqrt(area2);
     point.position = position - point.normal * dot(point.normal, ap);
-    point.error = 16 * std::numeric_limits<double>::epsilon() *
-                  std::max({max_component(abs(a)), max_component(abs(b)), max_component(abs(c))});
+    // Rounding of the coordinates, and of the edges: the latter tilts the normal, the more the narrower the triangle.
+    const double tilt = std::sqrt(dot(ab, ab) * dot(ac, ac) / area2);
+    const double largest = std::max({max_component(abs(a)), max_component(abs(b)), max_component(abs(c))});
+    point.error = std::numeric_limits<double>::epsilon() * (8 * largest + 4 * tilt * length(ap));
     point.u = std::clamp(dot(cross(ap, ac), normal) / area2, 0.0, 1.0);
     point.v = std::clamp(dot(cross(ab, ap), normal) / area2, 0.0, 1.0 - point.u);
     point.shading_normal = point.normal;
