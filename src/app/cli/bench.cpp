@@ -9,7 +9,7 @@
 #include "app/cli/load.h"
 #include "app/cli/quantities.h"
 #include "app/cli/scene_options.h"
-#include "app/cli/stats_file.h"
+#include "app/cli/stats_json.h"
 #include "app/cli/stop.h"
 #include "render/session.h"
 #include "scene/hierarchy.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <csignal>
 #include <iostream>
 #include <new>
 
@@ -95,6 +96,7 @@ ExitCode run(int count, char** arguments) {
 // The library reports failure by value; what is thrown past it is the end of memory, or a defect.
 int main(int count, char** arguments) {
     using namespace crescente;
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is an error to report, not a reason to die
     try {
         return app::run(count, arguments);
     } catch (const std::bad_alloc&) {

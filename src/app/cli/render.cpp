@@ -1,6 +1,7 @@
 // crescente render MODEL -o PICTURE
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -13,10 +14,12 @@
 #include "app/cli/progress.h"
 #include "app/cli/quantities.h"
 #include "app/cli/scene_options.h"
-#include "app/cli/stats_file.h"
+#include "app/cli/stats_json.h"
 #include "app/cli/stop.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "render/session.h"
+#include "scene/hierarchy.h"
 
 namespace crescente::app {
 namespace {
@@ -27,7 +30,8 @@ using Clock = std::chrono::steady_clock;
 struct RenderOptions {
     SceneOptions scene;
     std::vector<std::string> outputs;
-    std::string stats_file, time, tonemap, replay;
+    std::string stats_file, tonemap;
+    std::optional<std::string> time, replay;
     std::optional<double> exposure;
     int bits = 8;
     bool quiet = false;
@@ -43,6 +47,11 @@ struct Request {
     std::optional<std::chrono::duration<double>> time;
     std::optional<Pixel> replay;
     std::optional<scene::Tonemap> tonemap;
+};
+
+// Wall time of the parts of a run, seconds; cpu: of all threads.
+struct RunTimes {
+    double load = 0, render = 0, write = 0, total = 0, cpu = 0;
 };
 
 // Why the picture stopped growing.
@@ -68,19 +77,19 @@ Expected<Request> understand(const RenderOptions& options) {
         }
     };
     keep(app::understand(options.scene), request.scene);
-    if (!options.time.empty()) keep(parse_duration("--time", options.time), request.time);
+    if (options.time) keep(parse_duration("--time", *options.time), request.time);
     if (options.tonemap == "srgb") request.tonemap = scene::Tonemap::srgb;
     if (options.tonemap == "neutral") request.tonemap = scene::Tonemap::neutral;
     if (options.tonemap == "auto") request.tonemap = scene::Tonemap::automatic;
-    if (!options.replay.empty()) {
+    if (options.replay) {
         std::vector<double> numbers;
-        keep(parse_numbers("--replay", options.replay), numbers);
+        keep(parse_numbers("--replay", *options.replay), numbers);
         constexpr double widest = 65536;
         const auto pixel = [&](double n) { return n >= 0 && n < widest && n == static_cast<int>(n); };
         if (numbers.size() == 2 && pixel(numbers[0]) && pixel(numbers[1])) {
             request.replay = Pixel{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
         } else if (!numbers.empty()) {
-            problems.push_back({"", "--replay", "'" + options.replay + "' is not a pixel", "write x,y, counted from the top left"});
+            problems.push_back({"", "--replay", "'" + *options.replay + "' is not a pixel", "write x,y, counted from the top left"});
         }
     }
     if (!problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(problems)});
@@ -92,11 +101,11 @@ Expected<void> check_outputs(const RenderOptions& options) {
     Error unwritable{ErrorKind::output, {}};
     const auto check = [&](const Expected<void>& writable) {
         if (writable) return;
-        unwritable.kind = writable.error().kind;
+        if (unwritable.problems.empty()) unwritable.kind = writable.error().kind;
         unwritable.problems.insert(unwritable.problems.end(), writable.error().problems.begin(), writable.error().problems.end());
     };
     for (const std::string& output : options.outputs) check(io::can_write(output));
-    if (!options.stats_file.empty()) check(can_write_text(options.stats_file));
+    if (!options.stats_file.empty()) check(io::can_write_file(options.stats_file));
     if (!unwritable.problems.empty()) return tl::unexpected<Error>(std::move(unwritable));
     return {};
 }
@@ -142,8 +151,12 @@ io::ImageOptions image_options(const RenderOptions& options, const Request& requ
     return image;
 }
 
+// EXR keeps every layer; the other formats show the first.
 bool needs_all_layers(const std::vector<std::string>& outputs) {
-    return std::any_of(outputs.begin(), outputs.end(), [](const std::string& output) { return output.ends_with(".exr"); });
+    return std::any_of(outputs.begin(), outputs.end(), [](const std::string& output) {
+        const std::string extension = std::filesystem::path(output).extension();
+        return extension == ".exr" || extension == ".EXR";
+    });
 }
 
 std::string summary(const render::Stats& stats, const scene::Settings& settings, const RunTimes& times, const std::string& output) {
@@ -236,7 +249,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     report["time"]["cpu"] = times.cpu;
     if (!options.stats_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-        if (const auto written = write_text(options.stats_file, text); !written) return fail(written.error());
+        if (const auto written = io::write_atomically(options.stats_file, text); !written) return fail(written.error());
     }
 
     if (!options.quiet) {

@@ -122,20 +122,19 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 Expected<SceneRequest> understand(const SceneOptions& options) {
     Reader reader;
     for (const SettingOption& o : setting_options) {
-        const auto& text = options.settings.at(o.field);
-        if (!text.empty()) reader.set_text(o.option, o.field, text);
+        if (const auto& text = options.settings.at(o.field)) reader.set_text(o.option, o.field, *text);
     }
-    if (!options.size.empty()) {
-        if (const auto size = parse_size("--size", options.size); reader.keep(size)) {
+    if (options.size) {
+        if (const auto size = parse_size("--size", *options.size); reader.keep(size)) {
             reader.set_integer("--size", "width", size->width);
             reader.set_integer("--size", "height", size->height);
         }
     }
-    if (!options.supersampling.empty()) {
-        reader.set_text("--supersampling", "supersampling", options.supersampling == "off" ? "0" : options.supersampling);
+    if (options.supersampling) {
+        reader.set_text("--supersampling", "supersampling", options.supersampling == "off" ? "0" : *options.supersampling);
     }
-    if (!options.memory.empty()) {
-        if (const auto bytes = parse_bytes("--memory", options.memory); reader.keep(bytes)) reader.set_integer("--memory", "memory", *bytes);
+    if (options.memory) {
+        if (const auto bytes = parse_bytes("--memory", *options.memory); reader.keep(bytes)) reader.set_integer("--memory", "memory", *bytes);
     }
     if (auto view = parse_view(options.camera, options.field_of_view, options.orthographic); reader.keep(view)) {
         reader.request.view = std::move(*view);

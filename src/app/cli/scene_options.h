@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,9 @@ namespace crescente::app {
 // As the user wrote them.
 struct SceneOptions {
     std::string file;
-    std::map<std::string, std::string> settings;  // field of scene::Settings -> value
-    std::string size, memory, supersampling;
-    std::string camera, field_of_view;
+    std::map<std::string, std::optional<std::string>> settings;  // field of scene::Settings -> value
+    std::optional<std::string> size, memory, supersampling;
+    std::optional<std::string> camera, field_of_view;
     bool orthographic = false;
     std::vector<std::string> overrides;  // --set path=value
     bool no_studio = false;

@@ -55,7 +55,7 @@ std::string view_names() {
     return names;
 }
 
-Expected<View> parse_view(const std::string& camera, const std::string& field_of_view, bool orthographic) {
+Expected<View> parse_view(const std::optional<std::string>& camera, const std::optional<std::string>& field_of_view, bool orthographic) {
     View view;
     view.orthographic = orthographic;
     Problems problems;
@@ -68,17 +68,17 @@ Expected<View> parse_view(const std::string& camera, const std::string& field_of
         }
     };
 
-    if (!camera.empty()) {
+    if (camera) {
         std::vector<std::string> names;
         for (const Named& named : named_views) {
             names.push_back(named.name);
-            if (camera == named.name) view.place = named.view;
+            if (*camera == named.name) view.place = named.view;
         }
         if (!view.place) {
-            const auto numbers = parse_numbers("--camera", camera);
+            const auto numbers = parse_numbers("--camera", *camera);
             if (!numbers || (numbers->size() != 6 && numbers->size() != 7)) {
-                const std::string hint = spelling_hint(camera, names);
-                problems.push_back({"", "--camera", "'" + camera + "' is neither six numbers px,py,pz,tx,ty,tz nor the name of a view",
+                const std::string hint = spelling_hint(*camera, names);
+                problems.push_back({"", "--camera", "'" + *camera + "' is neither six numbers px,py,pz,tx,ty,tz nor the name of a view",
                                     hint.empty() ? "one of " + view_names() : hint});
             } else {
                 const auto& n = *numbers;
@@ -89,12 +89,12 @@ Expected<View> parse_view(const std::string& camera, const std::string& field_of
             }
         }
     }
-    if (!field_of_view.empty()) {
-        const auto degrees = parse_numbers("--fov", field_of_view);
+    if (field_of_view) {
+        const auto degrees = parse_numbers("--fov", *field_of_view);
         if (degrees && degrees->size() == 1) {
             set_field_of_view("--fov", degrees->front());
         } else {
-            problems.push_back({"", "--fov", "'" + field_of_view + "' is not a number of degrees", ""});
+            problems.push_back({"", "--fov", "'" + *field_of_view + "' is not a number of degrees", ""});
         }
     }
     if (!problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(problems)});

@@ -29,7 +29,7 @@ struct View {
 std::string view_names();
 
 // "front" or "px,py,pz,tx,ty,tz" (with an optional seventh number, the field of view in degrees). Errors: usage.
-Expected<View> parse_view(const std::string& camera, const std::string& field_of_view, bool orthographic);
+Expected<View> parse_view(const std::optional<std::string>& camera, const std::optional<std::string>& field_of_view, bool orthographic);
 
 // Puts the camera of the scene where the view wants it. Errors (usage): a named view of a scene without bounds.
 Expected<void> place_camera(const View& view, scene::Scene& scene);

@@ -1,0 +1,13 @@
+// Counters and times as JSON (docs/cli.md lists the fields).
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "render/session.h"
+
+namespace crescente::app {
+
+// What Session counts: rays, tests, nodes, memory, levels, threads.
+nlohmann::ordered_json stats_json(const render::Stats& stats);
+
+}  // namespace crescente::app

@@ -1,0 +1,218 @@
+// Pictures of real scenes: files, counters, time limits and interruption.
+#include <png.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/program.h"
+
+namespace crescente::test {
+namespace {
+
+using Json = nlohmann::json;
+using Render = ProgramTest;
+
+const std::string balls = (scenes / "balls4.nff").string();
+
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgb;  // empty: the file is no whole PNG
+};
+
+Picture read_png(const std::string& file) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&image, file.c_str())) return {};
+    image.format = PNG_FORMAT_RGB;
+    Picture picture{static_cast<int>(image.width), static_cast<int>(image.height), std::vector<std::uint8_t>(PNG_IMAGE_SIZE(image))};
+    if (!png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr)) picture.rgb.clear();
+    return picture;
+}
+
+// How many colours there are: a picture of something has many.
+std::size_t colors(const Picture& picture) {
+    std::vector<std::uint32_t> all;
+    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+        all.push_back(static_cast<std::uint32_t>(picture.rgb[i] << 16 | picture.rgb[i + 1] << 8 | picture.rgb[i + 2]));
+    }
+    std::sort(all.begin(), all.end());
+    return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
+}
+
+// The least that changed pixels show: black rows at the bottom would mean that the picture is not whole.
+bool bottom_rows_are_drawn(const Picture& picture) {
+    const std::size_t row = static_cast<std::size_t>(picture.width) * 3;
+    return std::any_of(picture.rgb.end() - static_cast<std::ptrdiff_t>(row * 8), picture.rgb.end(), [](std::uint8_t v) { return v != 0; });
+}
+
+TEST_F(Render, PictureOfASceneHasItsSizeAndContent) {
+    const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "--size", "97x61", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    const Picture picture = read_png(path("a.png"));
+    EXPECT_EQ(picture.width, 97);
+    EXPECT_EQ(picture.height, 61);
+    EXPECT_GT(colors(picture), 100u);
+    EXPECT_EQ(files(), std::vector<std::string>{"a.png"});
+}
+
+TEST_F(Render, BareModelGetsTheStudio) {
+    const Outcome outcome = crescente({"render", (scenes / "2CylinderEngine.glb").string(), "-o", path("a.png"), "--size", "120x80"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_GT(colors(read_png(path("a.png"))), 200u);
+    EXPECT_TRUE(contains(outcome.out, "120x80"));
+}
+
+TEST_F(Render, NamedViewsDiffer) {
+    std::vector<std::string> pictures;
+    for (const char* view : {"front", "back", "left", "right", "top", "bottom", "iso"}) {
+        const std::string file = path(std::string(view) + ".png");
+        const Outcome outcome = crescente({"render", balls, "-o", file, "--size", "48x48", "--level", "0", "--camera", view, "-q"});
+        ASSERT_EQ(outcome.code, 0) << view << outcome.err;
+        const Picture picture = read_png(file);
+        pictures.emplace_back(picture.rgb.begin(), picture.rgb.end());
+    }
+    std::sort(pictures.begin(), pictures.end());
+    EXPECT_EQ(std::unique(pictures.begin(), pictures.end()), pictures.end());
+}
+
+TEST_F(Render, OrthographicDiffersFromPerspective) {
+    ASSERT_EQ(crescente({"render", balls, "-o", path("p.png"), "--size", "48x48", "--level", "0", "-q"}).code, 0);
+    ASSERT_EQ(crescente({"render", balls, "-o", path("o.png"), "--size", "48x48", "--level", "0", "-q", "--orthographic"}).code, 0);
+    const Picture orthographic = read_png(path("o.png"));
+    EXPECT_NE(read_png(path("p.png")).rgb, orthographic.rgb);
+    EXPECT_GT(colors(orthographic), 20u);
+}
+
+TEST_F(Render, SeveralOutputsAtOnce) {
+    const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "-o", path("b.exr"), "--size", "32x32", "--bits", "16"});
+    if (outcome.code == 5) GTEST_SKIP() << "this build has no OpenImageIO";
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "b.exr"}));
+    const std::string exr = read(path("b.exr"));
+    EXPECT_EQ(exr.substr(0, 4), std::string("\x76\x2f\x31\x01"));
+    for (const char* channel : {"depth", "normal", "albedo", "samples"}) EXPECT_TRUE(exr.find(channel) != std::string::npos) << channel;
+    EXPECT_EQ(static_cast<int>(read(path("a.png"))[24]), 16);  // bit depth in the PNG's header
+}
+
+TEST_F(Render, StatsHaveTheDocumentedFields) {
+    const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "--size", "64x64", "--threads", "1", "--stats", path("s.json")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const Json stats = Json::parse(read(path("s.json")));
+    for (const char* kind : {"camera", "reflected", "refracted", "shadow"}) EXPECT_TRUE(stats.at("rays").at(kind).is_number_unsigned()) << kind;
+    EXPECT_GE(stats["rays"]["camera"], 65u * 65u);
+    EXPECT_GT(stats["rays"]["reflected"], 0u);
+    EXPECT_EQ(stats["rays"]["refracted"], 0u);
+    EXPECT_GT(stats["rays"]["shadow"], 0u);
+    EXPECT_GT(stats.at("nodes"), 0u);
+    EXPECT_GT(stats.at("bytes_per_pixel"), 0.0);
+    EXPECT_EQ(stats.at("threads"), 1);
+    EXPECT_EQ(stats.at("ended_by"), "complete");
+    for (const char* part : {"load", "render", "total"}) EXPECT_TRUE(stats.at("time").at(part).is_number()) << part;
+    EXPECT_GE(stats["time"]["total"].get<double>(), stats["time"]["render"].get<double>());
+    ASSERT_EQ(stats.at("levels").size(), 4u);
+    std::uint64_t rays = 0;
+    for (const Json& level : stats["levels"]) {
+        EXPECT_TRUE(level.at("name").is_string() && level.at("time").is_number());
+        rays += level.at("rays").at("total").get<std::uint64_t>();
+    }
+    EXPECT_EQ(rays, stats["rays"]["total"].get<std::uint64_t>());
+    EXPECT_EQ(stats.at("scene").at("hash").get<std::string>().size(), 16u);
+    for (const char* field : {"version", "command", "tests", "memory"}) EXPECT_TRUE(stats.contains(field)) << field;
+}
+
+TEST_F(Render, PictureTellsWhereItComesFrom) {
+    ASSERT_EQ(crescente({"render", balls, "-o", path("a.png"), "--size", "16x16", "-q"}).code, 0);
+    const std::string png = read(path("a.png"));
+    for (const char* part : {"Software", "Crescente", "--size 16x16", "xxh64:", "\"rays\""}) EXPECT_NE(png.find(part), std::string::npos) << part;
+}
+
+TEST_F(Render, LowerLevelsTraceLess) {
+    std::uint64_t last = 0;
+    for (const char* level : {"visible", "shadows", "reflections", "edges"}) {
+        ASSERT_EQ(crescente({"render", balls, "-o", path("a.png"), "--size", "64x64", "--level", level, "-q", "--stats", path("s.json")}).code, 0);
+        const std::uint64_t rays = Json::parse(read(path("s.json")))["rays"]["total"];
+        EXPECT_GT(rays, last) << level;
+        last = rays;
+    }
+}
+
+TEST_F(Render, ThreadsAndAcceleratorsGiveThePictureToTheBit) {
+    const auto render = [&](const std::string& name, std::vector<std::string> more) {
+        std::vector<std::string> arguments{"render", balls, "-o", path(name), "--size", "80x60", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(crescente(arguments).code, 0);
+        return read_png(path(name)).rgb;
+    };
+    const auto reference = render("a.png", {"--threads", "1"});
+    EXPECT_EQ(render("b.png", {"--threads", "3"}), reference);
+    EXPECT_EQ(render("c.png", {"--accel", "kay-kajiya"}), reference);
+    EXPECT_EQ(render("d.png", {"--memory", "64K"}), reference);
+}
+
+TEST_F(Render, TimeLimitGivesAWholePicture) {
+    const Outcome outcome =
+        crescente({"render", balls, "-o", path("a.png"), "--size", "1600x1200", "--threads", "1", "--time", "0s", "--stats", path("s.json")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "the time was over"));
+    EXPECT_EQ(Json::parse(read(path("s.json")))["ended_by"], "time");
+    const Picture picture = read_png(path("a.png"));
+    ASSERT_EQ(picture.width, 1600);
+    EXPECT_GT(colors(picture), 50u);
+    EXPECT_TRUE(bottom_rows_are_drawn(picture));
+}
+
+TEST_F(Render, FirstInterruptFinishesWithAWholePicture) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        Running running(command({"render", balls, "-o", path("a.png"), "--size", "4000x3000", "--threads", "1", "--stats", path("s.json")}), {});
+        ASSERT_TRUE(running.wait_for_error_text("rendering"));
+        running.send(signal);
+        const Outcome outcome = running.finish();
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_TRUE(contains(outcome.err, "stopped before the picture was complete"));
+        EXPECT_EQ(Json::parse(read(path("s.json")))["ended_by"], "signal");
+        const Picture picture = read_png(path("a.png"));
+        ASSERT_EQ(picture.width, 4000);
+        EXPECT_TRUE(bottom_rows_are_drawn(picture));
+        fs::remove(path("a.png"));
+    }
+}
+
+TEST_F(Render, SecondInterruptStopsAndLeavesTheOldFile) {
+    write("a.png", "what was here before");
+    // Brute force on a large picture: there is time between the two signals, whatever the machine.
+    Running running(command({"render", balls, "-o", path("a.png"), "--size", "8000x6000", "--threads", "1", "--accel", "linear"}), {});
+    ASSERT_TRUE(running.wait_for_error_text("rendering"));
+    running.send(SIGINT);
+    usleep(50'000);  // signals of one kind that meet are one signal
+    running.send(SIGINT);
+    const Outcome outcome = running.finish();
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "nothing was written"));
+    EXPECT_EQ(read(path("a.png")), "what was here before");
+    EXPECT_EQ(files(), std::vector<std::string>{"a.png"});
+}
+
+TEST_F(Render, ReplayTellsAPixelsTree) {
+    const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "--size", "64x64", "--replay", "32,32", "-q"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_GT(count(outcome.out, "\n"), 4u) << outcome.out;
+    const Outcome outside = crescente({"render", balls, "-o", path("b.png"), "--size", "64x64", "--replay", "64,0", "-q"});
+    EXPECT_EQ(outside.code, 2);
+    EXPECT_TRUE(contains(outside.err, "outside the picture"));
+}
+
+TEST_F(Render, TonemapAndExposureChangeThePicture) {
+    const auto render = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"render", balls, "-o", path("a.png"), "--size", "40x30", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        EXPECT_EQ(crescente(arguments).code, 0);
+        return read_png(path("a.png")).rgb;
+    };
+    const auto automatic = render({});
+    EXPECT_EQ(render({"--tonemap", "srgb"}), automatic);  // classic materials
+    EXPECT_NE(render({"--tonemap", "neutral"}), automatic);
+    EXPECT_NE(render({"--exposure", "-1"}), automatic);
+}
+
+}  // namespace
+}  // namespace crescente::test
