@@ -84,14 +84,6 @@ std::optional<double> shortest(double value, Same&& same) {
     return std::nullopt;
 }
 
-double component_text_value(float component) {  // the double with the digits of the float: 0.8f is written 0.8
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, component).ptr;
-    double value = component;
-    std::from_chars(buffer, end, value);
-    return value;
-}
-
 ordered_json number_json(double value) {
     constexpr double exact = 9007199254740992.0;
     if (value == std::floor(value) && std::abs(value) <= exact && !(value == 0 && std::signbit(value))) return static_cast<std::int64_t>(value);
@@ -99,6 +91,14 @@ ordered_json number_json(double value) {
 }
 
 }  // namespace
+
+double short_double(float component) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, component).ptr;
+    double value = component;
+    std::from_chars(buffer, end, value);
+    return value;
+}
 
 double rounded_to(double value, int digits) {
     if (!std::isfinite(value)) return value;
@@ -158,7 +158,7 @@ ordered_json write_value(const FieldValue& value, const FieldInfo& info, const M
         ordered_json array = ordered_json::array();
         for (const double component : *three) {
             const bool color = info.type == FieldType::color;
-            array.push_back(number_json(color ? component_text_value(static_cast<float>(length_in(component, scale)))
+            array.push_back(number_json(color ? short_double(static_cast<float>(length_in(component, scale)))
                                               : length_in(component, scale)));
         }
         return array;

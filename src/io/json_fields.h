@@ -32,6 +32,9 @@ nlohmann::ordered_json write_value(const FieldValue& value, const FieldInfo& inf
 // that never was in this unit), the nearest.
 double length_in(double metres_value, double scale);
 
+// The double that has the digits of the float: 0.8f is written 0.8.
+double short_double(float value);
+
 // The nearest double that has at most so many significant decimal digits.
 double rounded_to(double value, int digits);
 

@@ -1,0 +1,438 @@
+#include "io/scene_file.h"
+
+#include <cctype>
+#include <map>
+#include <unordered_map>
+
+#include "base/spelling.h"
+#include "io/json_fields.h"
+#include "io/scene_parts.h"
+#include "io/scene_words.h"
+#include "io/text_file.h"
+
+namespace crescente::io {
+namespace {
+
+namespace fs = std::filesystem;
+using math::Affine;
+using math::Vec3;
+using scene::NodeId;
+using scene::Scene;
+
+// Objects within objects, over all files: what the reader's recursion is allowed.
+constexpr int deepest_objects = 300;
+
+using Roots = std::vector<NodeId>;
+
+// What the files of one scene share while they are read.
+struct Loading {
+    Loaded loaded;
+    Problems problems;
+    std::map<fs::path, std::optional<Roots>> files;         // nothing: being read
+    std::vector<fs::path> chain;                            // the files being read, outermost first
+    std::unordered_map<std::uint32_t, NodeId> without_materials;  // copies of nodes whose own materials were taken away
+    int depth = 0;
+
+    Scene& scene() { return loaded.scene; }
+    NodeId new_node() {
+        scene().nodes.emplace_back();
+        return NodeId{static_cast<std::uint32_t>(scene().nodes.size() - 1)};
+    }
+};
+
+// The z axis up to the y axis up.
+constexpr Affine upright{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {0, 0, 0}};
+constexpr Affine lying{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, 0}};  // its inverse
+
+template <class Owner>
+void turn(Owner& owner, const Affine& rotation, std::initializer_list<Vec3 Owner::*> members) {
+    for (const auto member : members) owner.*member = rotation.vector(owner.*member);
+}
+void turn(scene::Camera& c, const Affine& r) { turn(c, r, {&scene::Camera::position, &scene::Camera::target, &scene::Camera::up}); }
+void turn(scene::Light& l, const Affine& r) { turn(l, r, {&scene::Light::position, &scene::Light::direction}); }
+
+bool is_url(const std::string& path) {
+    const auto colon = path.find(':');
+    if (colon == std::string::npos || colon == 0) return false;
+    return std::all_of(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(colon),
+                       [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
+}
+
+// The index of things by the name under which the file's references find them.
+class Names {
+public:
+    explicit Names(std::string what) : what_(std::move(what)) {}
+
+    void add(const std::string& name, std::uint32_t index, const Json& json, const Place& place, ProblemList& problems) {
+        if (name.empty()) return;
+        if (index_.emplace(name, index).second) names_.push_back(name);
+        else problems.add(json, place, "there is another " + what_ + " '" + name.substr(0, 100) + "'");
+    }
+    std::optional<std::uint32_t> find(const Json& json, const Place& place, ProblemList& problems) const {
+        if (!json.text()) {
+            problems.add(json, place, "is " + std::string(json.kind()) + ", must be the name of a " + what_);
+            return std::nullopt;
+        }
+        if (const auto found = index_.find(*json.text()); found != index_.end()) return found->second;
+        const std::string hint = problems.full() || names_.size() > 1000 ? std::string{} : spelling_hint(*json.text(), names_);
+        problems.add(json, place, "there is no " + what_ + " '" + json.text()->substr(0, 100) + "'", hint);
+        return std::nullopt;
+    }
+
+private:
+    std::string what_;
+    std::unordered_map<std::string, std::uint32_t> index_;
+    std::vector<std::string> names_;
+};
+
+// Reads one file into the scene.
+class Document {
+public:
+    Document(Loading& loading, std::string name, fs::path folder) : loading_(loading), problems_(std::move(name)), folder_(std::move(folder)) {}
+
+    Roots read(std::string_view text) {
+        Roots roots;
+        if (const auto json = parse_json(text, problems_)) roots = read_document(*json);
+        for (Problem& problem : problems_.take()) loading_.problems.push_back(std::move(problem));
+        return roots;
+    }
+
+private:
+    Scene& scene() { return loading_.scene(); }
+    bool outermost() const { return loading_.chain.size() == 1; }
+    void must_be(const Json& json, const Place& place, const std::string& wanted) {
+        problems_.add(json, place, "is " + std::string(json.kind()) + ", must be " + wanted);
+    }
+
+    // Calls visit(value, place, key) for each entry of an object by name or of a list; the key of a list's entry is empty.
+    template <class Visit>
+    void for_each_entry(const Json& json, const Place& place, Visit&& visit) {
+        if (json.object()) {
+            for (const auto& member : *json.object()) visit(member.value, place / member.key, member.key);
+        } else if (json.array()) {
+            std::size_t index = 0;
+            for (const Json& element : *json.array()) visit(element, place / index++, std::string{});
+        } else {
+            must_be(json, place, "an object by name, or a list");
+        }
+    }
+
+    std::string read_name(const Json& json, const Place& place, const std::string& key) {
+        const Json* name = json.find(name_word().name);
+        if (!name) return key;
+        if (name->text()) return *name->text();
+        must_be(*name, place / name_word().name, "a text");
+        return key;
+    }
+    // References go by key; by name for the entries of a list.
+    static const std::string& handle(const std::string& key, const std::string& name) { return key.empty() ? name : key; }
+
+    Roots read_document(const Json& json) {
+        const Place top;
+        if (!json.object()) return must_be(json, top, "an object"), Roots{};
+        const auto known = names_of(document_words());
+        for (const auto& member : *json.object()) {
+            if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_member(member, top, known, problems_);
+        }
+        read_measure(json, top);
+        const std::string name = read_name(json, top, "");
+        if (outermost()) scene().name = name;
+        read_surroundings(json, top);
+        if (const Json* lights = json.find("lights")) read_lights(*lights, top / "lights");
+        if (const Json* materials = json.find("materials")) {
+            for_each_entry(*materials, top / "materials", [&](const Json& value, const Place& place, const std::string& key) {
+                scene().materials.push_back(read_material(value, measure_, place, problems_));
+                scene().materials.back().name = read_name(value, place, key);
+                materials_.add(handle(key, scene().materials.back().name), std::uint32_t(scene().materials.size() - 1), value, place, problems_);
+            });
+        }
+        if (const Json* shapes = json.find("shapes")) {
+            for_each_entry(*shapes, top / "shapes", [&](const Json& value, const Place& place, const std::string& key) {
+                const std::string shape_name = read_name(value, place, key);
+                auto shape = read_shape(value, measure_, place, problems_);
+                scene().shapes.push_back({shape_name, shape ? std::move(*shape) : geometry::Shape{}});
+                shapes_.add(handle(key, shape_name), std::uint32_t(scene().shapes.size() - 1), value, place, problems_);
+            });
+        }
+        const Json* groups = json.find("groups");
+        if (groups) {
+            for_each_entry(*groups, top / "groups", [&](const Json& value, const Place& place, const std::string& key) {
+                groups_.add(handle(key, read_name(value, place, key)), loading_.new_node().value, value, place, problems_);
+                group_nodes_.push_back(NodeId{std::uint32_t(scene().nodes.size() - 1)});
+            });
+            std::size_t index = 0;
+            for_each_entry(*groups, top / "groups", [&](const Json& value, const Place& place, const std::string& key) {
+                read_object_into(group_nodes_[index++], value, place, key);
+            });
+        }
+        Roots roots;
+        if (const Json* objects = json.find("objects")) roots = read_objects(*objects, top / "objects");
+        if (!z_up_ || roots.empty()) return roots;
+        const NodeId turned = loading_.new_node();
+        scene().nodes[turned.value].name = "z up";
+        scene().nodes[turned.value].transform = upright;
+        scene().nodes[turned.value].children = std::move(roots);
+        return {turned};
+    }
+
+    void read_measure(const Json& json, const Place& top) {
+        if (const Json* unit = json.find("unit")) {
+            std::vector<std::string> names;
+            for (const auto& known : length_units()) names.push_back(known.name);
+            const LengthUnit* found = unit->text() ? find_unit(*unit->text()) : nullptr;
+            if (found) measure_ = {found->metres, found->name};
+            else if (!unit->text()) must_be(*unit, top / "unit", "a text");
+            else problems_.add(*unit, top / "unit", "'" + unit->text()->substr(0, 100) + "' is no unit of length", spelling_hint(*unit->text(), names));
+        }
+        if (outermost()) scene().unit = {measure_.name, measure_.metres};
+        if (const Json* up = json.find("up")) {
+            z_up_ = up->text() && *up->text() == "z";
+            if (!z_up_ && !(up->text() && *up->text() == "y")) problems_.add(*up, top / "up", "must be \"y\" or \"z\"");
+        }
+    }
+
+    // What only the outermost file may say; in the others it is checked and left out.
+    void read_surroundings(const Json& json, const Place& top) {
+        if (const Json* settings = json.find("settings")) {
+            scene::Settings read;
+            read_fields(*settings, read, scene::Settings::fields(), measure_, top / "settings", problems_);
+            if (outermost()) scene().settings = read;
+        }
+        if (const Json* camera = json.find("camera")) {
+            scene::Camera read;
+            if (z_up_) turn(read, lying);  // so that what the file leaves out stays as it is
+            read_fields(*camera, read, scene::Camera::fields(), measure_, top / "camera", problems_);
+            if (z_up_) turn(read, upright);
+            if (outermost()) scene().camera = read;
+        }
+        if (const Json* environment = json.find("environment")) {
+            scene::Environment read;
+            read_fields(*environment, read, scene::Environment::fields(), measure_, top / "environment", problems_);
+            if (outermost()) scene().environment = read;
+        }
+    }
+
+    void read_lights(const Json& json, const Place& place) {
+        const std::string own[] = {name_word().name};
+        std::size_t count = 0;
+        for_each_entry(json, place, [&](const Json& value, const Place& here, const std::string& key) {
+            scene::Light light;
+            if (z_up_) turn(light, lying);
+            read_fields(value, light, scene::Light::fields(), measure_, here, problems_, own);
+            if (z_up_) turn(light, upright);
+            light.name = read_name(value, here, key);
+            ++count;
+            if (outermost()) scene().lights.push_back(std::move(light));
+        });
+        if (!outermost() && count > 0) {
+            loading_.loaded.warnings.push_back({problems_.file(), place.pointer(), "the lights of a scene within a scene are left out", {}});
+        }
+    }
+
+    Roots read_objects(const Json& json, const Place& place) {
+        Roots nodes;
+        for_each_entry(json, place, [&](const Json& value, const Place& here, const std::string& key) {
+            if (const NodeId node = read_object(value, here, key); node.valid()) nodes.push_back(node);
+        });
+        return nodes;
+    }
+
+    NodeId read_object(const Json& json, const Place& place, const std::string& key) {
+        // Nothing but a reference: the group itself, shared, not a new node around it.
+        const Json* instance = json.find("instance");
+        if (instance && json.object()->size() == 1 && key.empty()) {
+            const auto group = groups_.find(*instance, place / "instance", problems_);
+            return group ? NodeId{*group} : NodeId{};
+        }
+        const NodeId node = loading_.new_node();
+        read_object_into(node, json, place, key);
+        return node;
+    }
+
+    void read_object_into(NodeId node, const Json& json, const Place& place, const std::string& key) {
+        if (!json.object()) return must_be(json, place, "an object");
+        if (loading_.depth >= deepest_objects) {
+            return problems_.add(json, Place{}, "objects are nested deeper than " + std::to_string(deepest_objects), "use groups and instances");
+        }
+        ++loading_.depth;
+        const auto known = names_of(object_words());
+        scene::Node read;
+        read.name = read_name(json, place, key);
+        bool from_file = false;
+        for (const auto& member : *json.object()) {
+            const Place here = place / member.key;
+            if (member.key == "transform") read.transform = read_transform(member.value, measure_, here, problems_);
+            else if (member.key == "shape") read.shape = read_object_shape(member.value, here, read.name);
+            else if (member.key == "material") read_materials(Json::Array{}, &member.value, here, read.materials);
+            else if (member.key == "materials") read_material_list(member.value, here, read.materials);
+            else if (member.key == "visible") {
+                if (member.value.boolean()) read.visible = *member.value.boolean();
+                else must_be(member.value, here, "true or false");
+            } else if (member.key == "file") from_file = true;
+            else if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_member(member, place, known, problems_);
+        }
+        if (json.find("material") && json.find("materials")) problems_.add(json, place, "has both material and materials");
+        if (const Json* instance = json.find("instance")) {
+            if (const auto group = groups_.find(*instance, place / "instance", problems_)) read.children.push_back(NodeId{*group});
+        }
+        if (from_file) {
+            for (const NodeId root : file_roots(*json.find("file"), place / "file")) {
+                read.children.push_back(read.materials.empty() ? root : stripped(root));
+            }
+        }
+        if (const Json* children = json.find("children")) {
+            for (const NodeId child : read_objects(*children, place / "children")) read.children.push_back(child);
+        }
+        scene().nodes[node.value] = std::move(read);
+        --loading_.depth;
+    }
+
+    scene::ShapeId read_object_shape(const Json& json, const Place& place, const std::string& name) {
+        if (!json.object()) {
+            const auto found = shapes_.find(json, place, problems_);
+            return found ? scene::ShapeId{*found} : scene::ShapeId{};
+        }
+        auto shape = read_shape(json, measure_, place, problems_);
+        if (!shape) return {};
+        scene().shapes.push_back({read_name(json, place, name), std::move(*shape)});
+        return scene::ShapeId{std::uint32_t(scene().shapes.size() - 1)};
+    }
+
+    void read_materials(const Json::Array& list, const Json* single, const Place& place, std::vector<scene::MaterialId>& materials) {
+        if (single) {
+            if (const auto found = materials_.find(*single, place, problems_)) materials.push_back({*found});
+            return;
+        }
+        std::size_t index = 0;
+        for (const Json& name : list) {
+            if (const auto found = materials_.find(name, place / index++, problems_)) materials.push_back({*found});
+        }
+    }
+    void read_material_list(const Json& json, const Place& place, std::vector<scene::MaterialId>& materials) {
+        if (json.array()) read_materials(*json.array(), nullptr, place, materials);
+        else must_be(json, place, "a list of names of materials");
+    }
+
+    // The top nodes of another file, read at its first mention.
+    Roots file_roots(const Json& json, const Place& place) {
+        if (!json.text() || json.text()->empty() || json.text()->find('\0') != std::string::npos) return must_be(json, place, "the path of a file"), Roots{};
+        const std::string& reference = *json.text();
+        if (is_url(reference)) return problems_.add(json, place, "'" + reference.substr(0, 100) + "' is an address, not a file's path"), Roots{};
+        std::error_code error;
+        const fs::path file = folder_ / reference;
+        fs::path identity = fs::weakly_canonical(file, error);
+        if (error) identity = file;
+        if (const auto known = loading_.files.find(identity); known != loading_.files.end()) {
+            if (known->second) return *known->second;
+            problems_.add(json, place, "the files refer to each other in a ring: " + ring_text(identity));
+            return {};
+        }
+        if (!fs::is_regular_file(identity, error)) {
+            return problems_.add(json, place, "there is no file '" + reference.substr(0, 300) + "'"), Roots{};
+        }
+        loading_.files[identity] = std::nullopt;
+        Roots roots = identity.extension() == ".json" ? read_inner_scene(file, identity) : read_model(file);
+        loading_.files[identity] = roots;
+        return roots;
+    }
+
+    Roots read_inner_scene(const fs::path& file, const fs::path& identity) {
+        const auto text = read_whole_file(file);
+        if (!text) return take_problems(text.error()), Roots{};
+        loading_.chain.push_back(identity);
+        Document inner{loading_, file.string(), file.parent_path()};
+        Roots roots = inner.read(*text);
+        loading_.chain.pop_back();
+        return roots;
+    }
+
+    Roots read_model(const fs::path& file) {
+        auto model = read_scene(file);
+        if (!model) return take_problems(model.error()), Roots{};
+        for (Problem& warning : model->warnings) loading_.loaded.warnings.push_back(std::move(warning));
+        Scene& from = model->scene;
+        Scene& to = scene();
+        const auto materials = std::uint32_t(to.materials.size()), shapes = std::uint32_t(to.shapes.size()), nodes = std::uint32_t(to.nodes.size());
+        for (auto& material : from.materials) to.materials.push_back(std::move(material));
+        for (auto& shape : from.shapes) to.shapes.push_back(std::move(shape));
+        for (auto& node : from.nodes) {
+            if (node.shape.valid()) node.shape.value += shapes;
+            for (auto& material : node.materials) material.value += materials;
+            for (auto& child : node.children) child.value += nodes;
+            to.nodes.push_back(std::move(node));
+        }
+        for (auto& root : from.roots) root.value += nodes;
+        return std::move(from.roots);
+    }
+
+    void take_problems(const Error& error) {
+        for (const Problem& problem : error.problems) loading_.problems.push_back(problem);
+    }
+
+    std::string ring_text(const fs::path& file) const {
+        std::string text;
+        const auto first = std::find(loading_.chain.begin(), loading_.chain.end(), file);
+        for (auto link = first; link != loading_.chain.end(); ++link) text += link->filename().string() + " -> ";
+        return text + file.filename().string();
+    }
+
+    // The node, and what is below it, without materials of its own, so that those of an object above hold. Each node is
+    // copied once, however many objects show it.
+    NodeId stripped(NodeId root) {
+        std::vector<NodeId> open;
+        const auto copy_of = [&](NodeId node) {
+            const auto [found, is_new] = loading_.without_materials.try_emplace(node.value, NodeId{});
+            if (is_new) {
+                found->second = loading_.new_node();
+                scene().nodes[found->second.value] = scene().nodes[node.value];
+                open.push_back(node);
+            }
+            return found->second;
+        };
+        const NodeId result = copy_of(root);
+        while (!open.empty()) {
+            const NodeId node = open.back();
+            open.pop_back();
+            std::vector<NodeId> children;
+            for (const NodeId child : std::vector<NodeId>(scene().nodes[node.value].children)) children.push_back(copy_of(child));
+            scene::Node& copy = scene().nodes[loading_.without_materials.at(node.value).value];
+            copy.children = std::move(children);
+            copy.materials.clear();
+        }
+        return result;
+    }
+
+    Loading& loading_;
+    ProblemList problems_;
+    fs::path folder_;
+    Measure measure_;
+    bool z_up_ = false;
+    Names materials_{"material"}, shapes_{"shape"}, groups_{"group"};
+    std::vector<NodeId> group_nodes_;
+};
+
+Expected<Loaded> read_outermost(std::string_view text, const std::string& name, const fs::path& folder, const fs::path& identity) {
+    Loading loading;
+    loading.chain.push_back(identity);
+    loading.files[identity] = std::nullopt;
+    Document document{loading, name, folder};
+    loading.scene().roots = document.read(text);
+    if (!loading.problems.empty()) return tl::unexpected(Error{ErrorKind::input, std::move(loading.problems)});
+    return std::move(loading.loaded);
+}
+
+}  // namespace
+
+Expected<Loaded> read_scene_file(const fs::path& file) {
+    const auto text = read_whole_file(file);
+    if (!text) return tl::unexpected(text.error());
+    std::error_code error;
+    const fs::path identity = fs::weakly_canonical(file, error);
+    return read_outermost(*text, file.string(), file.parent_path(), error ? file : identity);
+}
+
+Expected<Loaded> read_scene_text(std::string_view text, const std::string& name, const fs::path& folder) {
+    return read_outermost(text, name, folder, folder / name);
+}
+
+}  // namespace crescente::io

@@ -1,0 +1,18 @@
+// The parts of a scene file that stand alone: shapes, materials, transforms.
+#pragma once
+
+#include "io/json_fields.h"
+#include "scene/scene.h"
+
+namespace crescente::io {
+
+// {"sphere": {"radius": 1}}. Nothing if the kind is wrong; wrong fields are told and left at their defaults.
+std::optional<geometry::Shape> read_shape(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
+
+// {"model": "classic", ...}. The name is the caller's.
+scene::Material read_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
+
+// A step or a list of steps, the first applied first.
+math::Affine read_transform(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
+
+}  // namespace crescente::io
