@@ -182,7 +182,7 @@ ExitCode info(const InfoOptions& options) {
 Command add_info(CLI::App& app) {
     CLI::App* parser = app.add_subcommand("info", "Tell what is in a scene or model file, and what is wrong with it");
     const auto options = std::make_shared<InfoOptions>();
-    parser->add_option("model", options->file, "Scene or model file")->required()->option_text("MODEL");
+    parser->add_option("MODEL", options->file, "Scene or model file")->required()->option_text(" ");
     parser->add_flag("--json", options->json, "Print JSON");
     parser->footer("Exit code 3 if the scene cannot be rendered as it is.");
     return {parser, [options](const Invocation&) { return info(*options); }};

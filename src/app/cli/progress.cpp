@@ -55,7 +55,7 @@ void ProgressDisplay::show(const render::Progress& progress, const render::Sessi
     last_rays_ = rays;
 
     char numbers[96];
-    std::snprintf(numbers, sizeof numbers, " %3.0f %%  %srays/s  %s left", progress.fraction * 100, human_count(rate).c_str(),
+    std::snprintf(numbers, sizeof numbers, " %3.0f %%  %s  %s left", progress.fraction * 100, human_rate(rate).c_str(),
                   left >= 1e9 ? "?" : human_time(left).c_str());
     if (terminal_) {
         constexpr int level_width = 12, widest_bar = 40;

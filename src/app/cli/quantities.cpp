@@ -102,6 +102,11 @@ std::string human_count(double count) {
     return format("%.0f", count);
 }
 
+std::string human_rate(double rays_per_second) {
+    const std::string count = human_count(rays_per_second);
+    return count + (count.find(' ') == std::string::npos ? " rays/s" : "rays/s");
+}
+
 std::string human_bytes(double bytes) {
     static constexpr Suffix suffixes[] = {{"GiB", 1073741824.0}, {"MiB", 1048576.0}, {"KiB", 1024.0}};
     for (const Suffix& suffix : suffixes) {

@@ -31,6 +31,9 @@ Expected<std::vector<double>> parse_numbers(const std::string& option, std::stri
 // "1.23 M", "45.6 k", "789".
 std::string human_count(double count);
 
+// "1.63 Mrays/s".
+std::string human_rate(double rays_per_second);
+
 // "1.2 GiB", "34 KiB", "12 bytes".
 std::string human_bytes(double bytes);
 

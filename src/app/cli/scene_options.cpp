@@ -104,7 +104,7 @@ struct Reader {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("model", options.file, "Scene or model file (see `crescente formats`)")->required()->option_text("MODEL");
+    command.add_option("MODEL", options.file, "Scene or model file (see `crescente formats`)")->required()->option_text(" ");
     command.add_option("--size", options.size, "Size of the picture in pixels")->option_text("WxH");
     for (const SettingOption& o : setting_options) {
         command.add_option(o.option, options.settings[o.field], o.doc)->option_text(o.value);
