@@ -7,17 +7,16 @@
 
 #include "accel/narrow_phase.h"
 #include "geometry/triangle.h"
+#include "math/lanes.h"
 
 struct RTCDeviceTy;
 
 namespace crescente::accel {
 
-inline constexpr int cluster_size = 8;
-
-using Doubles = double __attribute__((vector_size(cluster_size * sizeof(double))));
+inline constexpr int cluster_size = lane_count;
 
 struct TriangleCluster {
-    geometry::Point3<Doubles> p, q, r;  // corners; unused lanes repeat the first corner of the first triangle: degenerate, never hit
+    geometry::Point3<Lanes> p, q, r;  // corners; unused lanes repeat the first corner of the first triangle: degenerate, never hit
     std::uint32_t triangle[cluster_size];
 };
 
@@ -27,27 +26,36 @@ std::vector<TriangleCluster> cluster_triangles(const geometry::Mesh& mesh, RTCDe
 // Bounds of the cluster under a transform.
 Bounds bounds(const TriangleCluster& cluster, const Affine& to_world);
 
-// Lanes whose triangle the ray (in the mesh's space) meets within t_min < t <= t_max, as bits; t holds the parameters.
-inline unsigned hit_lanes(const TriangleCluster& cluster, const Ray& ray, double t_max, Doubles& t) {
-    const auto test = geometry::test_triangle(cluster.p, cluster.q, cluster.r, ray.origin, ray.direction);
+// A ray in a mesh's space, with what all its triangle tests share.
+struct MeshRay {
+    Ray ray;
+    geometry::RayView view;
+
+    MeshRay() = default;
+    explicit MeshRay(const Ray& local) : ray(local), view(local.origin, local.direction) {}
+};
+
+// Lanes whose triangle the ray meets within t_min < t <= t_max, as bits; t holds the parameters.
+inline unsigned hit_lanes(const TriangleCluster& cluster, const MeshRay& local, double t_max, Lanes& t) {
+    const Ray& ray = local.ray;
+    const auto test = geometry::test_triangle(cluster.p, cluster.q, cluster.r, local.view, ray.origin, ray.direction);
     const auto inside = ((test.u >= 0.0) & (test.v >= 0.0) & (test.w >= 0.0)) | ((test.u <= 0.0) & (test.v <= 0.0) & (test.w <= 0.0));
     const auto within = inside & (test.t > ray.t_min) & (test.t <= t_max);
     t = test.t;
-    unsigned lanes = 0;
-    for (int i = 0; i < cluster_size; ++i) lanes |= within[i] ? 1u << i : 0u;
+    unsigned lanes = bits_of(within);
     for (unsigned rest = lanes; rest; rest &= rest - 1) {  // a ray on an edge or vertex belongs to one triangle only
         const int i = __builtin_ctz(rest);
         if (test.u[i] != 0 && test.v[i] != 0 && test.w[i] != 0) continue;
-        const auto corner = [i](const geometry::Point3<Doubles>& c) { return geometry::Point3<double>{c.x[i], c.y[i], c.z[i]}; };
+        const auto corner = [i](const geometry::Point3<Lanes>& c) { return geometry::Point3<double>{c.x[i], c.y[i], c.z[i]}; };
         if (!geometry::encloses(corner(cluster.p), corner(cluster.q), corner(cluster.r), ray.origin, ray.direction)) lanes ^= 1u << i;
     }
     return lanes;
 }
 
 // As nearest_in_part, for all triangles of the cluster.
-inline void nearest_in_cluster(const TriangleCluster& cluster, std::uint32_t instance, const Ray& local, Hit& hit) {
-    Doubles t;
-    for (unsigned lanes = hit_lanes(cluster, local, std::min(local.t_max, hit.t), t); lanes; lanes &= lanes - 1) {
+inline void nearest_in_cluster(const TriangleCluster& cluster, std::uint32_t instance, const MeshRay& local, Hit& hit) {
+    Lanes t;
+    for (unsigned lanes = hit_lanes(cluster, local, std::min(local.ray.t_max, hit.t), t); lanes; lanes &= lanes - 1) {
         const int lane = __builtin_ctz(lanes);
         const Hit candidate{t[lane], instance, cluster.triangle[lane]};
         if (before(candidate, hit)) hit = candidate;

@@ -19,16 +19,14 @@ Bounds Mesh::part_bounds(std::uint32_t part) const {
 }
 
 std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) const {
-    const auto corner = [&](int k) {
-        const Vec3& p = positions[triangles[part][k]];
-        return Point3<double>{p.x, p.y, p.z};
-    };
-    const Point3<double> p = corner(0), q = corner(1), r = corner(2);
-    const auto [u, v, w, t] = test_triangle(p, q, r, ray.origin, ray.direction);
-    const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-    if (!inside || !(t > ray.t_min && t <= ray.t_max)) return std::nullopt;
-    if ((u == 0 || v == 0 || w == 0) && !encloses(p, q, r, ray.origin, ray.direction)) return std::nullopt;
-    return ShapeHit{t, part};
+    const auto& triangle = triangles[part];
+    const Vec3 p = positions[triangle[0]], q = positions[triangle[1]], r = positions[triangle[2]];
+    const auto corner = [](Vec3 v) { return Point3<double>{v.x, v.y, v.z}; };
+    const TriangleTest<double> test = test_triangle(corner(p), corner(q), corner(r), ray.origin, ray.direction);
+    const bool inside = (test.u >= 0 && test.v >= 0 && test.w >= 0) || (test.u <= 0 && test.v <= 0 && test.w <= 0);
+    if (!inside || !(test.t > ray.t_min && test.t <= ray.t_max)) return std::nullopt;
+    if (!confirmed(test, p, q, r, ray.origin, ray.direction)) return std::nullopt;
+    return ShapeHit{test.t, part};
 }
 
 SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/triangle.h"
+
 namespace crescente::geometry {
 
 MeshRepair repair(Mesh& mesh) {
@@ -34,9 +36,7 @@ MeshRepair repair(Mesh& mesh) {
             ++found.not_finite;
             continue;
         }
-        const Vec3 normal = cross(b - a, c - a);
-        const double area2 = dot(normal, normal);
-        if (!(area2 > 0 && std::isfinite(area2))) {  // also what under- or overflows: it has no direction in doubles
+        if (!has_area(a, b, c)) {
             ++found.zero_area;
             continue;
         }

@@ -6,10 +6,21 @@
 namespace crescente::geometry {
 namespace {
 
-// Twice the area times the unit normal (Newell's method, about the first point so that far-away polygons keep their precision).
-Vec3 area_normal(const std::vector<Vec3>& loop) {
-    Vec3 sum;
-    for (std::size_t i = 2; i < loop.size(); ++i) sum += cross(loop[i - 1] - loop[0], loop[i] - loop[0]);
+struct Facing {
+    Vec3 normal;        // times twice the area
+    double spread = 0;  // twice the area if nothing cancelled: rounding of the normal is relative to it
+
+    bool has_area() const { return length(normal) > 4 * std::numeric_limits<double>::epsilon() * spread; }
+};
+
+// Newell's method, about the first point so that far-away polygons keep their precision.
+Facing facing(const std::vector<Vec3>& loop) {
+    Facing sum;
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+        const Vec3 a = loop[i - 1] - loop[0], b = loop[i] - loop[0];
+        sum.normal += cross(a, b);
+        sum.spread += std::sqrt(dot(a, a) * dot(b, b));
+    }
     return sum;
 }
 
@@ -39,25 +50,28 @@ std::optional<ShapeHit> Polygon::intersect(std::uint32_t, const Ray& ray) const 
     }
     if (!inside) return std::nullopt;
     const auto& first = loops.front();
-    const Vec3 normal = area_normal(first);
-    if (!(dot(normal, normal) > 0)) return std::nullopt;
+    const Facing face = facing(first);
+    if (!face.has_area()) return std::nullopt;
     const double s0 = view.parameter(least), s1 = view.parameter(most);
-    const double t = parameter_between(dot(first[0] - ray.origin, normal) / dot(ray.direction, normal), std::min(s0, s1), std::max(s0, s1));
+    const double t = parameter_between(dot(first[0] - ray.origin, face.normal) / dot(ray.direction, face.normal), std::min(s0, s1), std::max(s0, s1));
     return in_reach(t, ray) ? std::optional(ShapeHit{t, 0}) : std::nullopt;
 }
 
 // u, v: metres from the first point, along the first edge and across it.
 SurfacePoint Polygon::surface(std::uint32_t, Vec3 position) const {
     const auto& first = loops.front();
+    const Facing face = facing(first);
     SurfacePoint point;
-    point.normal = point.shading_normal = normalize(area_normal(first));
+    point.normal = point.shading_normal = normalize(face.normal);
     const Vec3 offset = position - first[0];
     point.position = position - point.normal * dot(point.normal, offset);
     const Vec3 along = first[1] - first[0];
     const Vec3 unit = dot(along, along) > 0 ? normalize(along) : perpendicular(point.normal);
     point.u = dot(offset, unit);
     point.v = dot(offset, cross(point.normal, unit));
-    point.error = 32 * std::numeric_limits<double>::epsilon() * bounds().largest_coordinate();
+    // Rounding of the coordinates, and of the normal, which tilts the plane.
+    const double tilt = 8 * face.spread / length(face.normal);
+    point.error = std::numeric_limits<double>::epsilon() * (8 * bounds().largest_coordinate() + tilt * length(offset));
     return point;
 }
 

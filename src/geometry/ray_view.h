@@ -25,6 +25,7 @@ struct ViewPoint {
 
 class RayView {
 public:
+    RayView() = default;
     RayView(math::Vec3 origin, math::Vec3 direction) : origin_(origin) {
         const math::Vec3 size = abs(direction);
         axis_ = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);

@@ -4,19 +4,10 @@
 
 namespace crescente::geometry {
 
-// The origin is first moved to the point of the line nearest to the centre; the discriminant then is a difference of distances, which
-// stays exact where b^2 - a c cancels (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019,
-// ch. 7).
 std::optional<ShapeHit> Sphere::intersect(std::uint32_t, const Ray& ray) const {
-    const double a = dot(ray.direction, ray.direction);
-    const double shift = -dot(ray.origin, ray.direction) / a;
-    const Vec3 near = exact_at(ray, shift);
-    const double distance = length(near);
-    const double discriminant = (radius - distance) * (radius + distance);
-    if (!(discriminant > 0)) return std::nullopt;
-    const double middle = shift - dot(near, ray.direction) / a;  // what rounding of the shift left over
-    const double half = std::sqrt(discriminant / a);
-    return boundary_hit({middle - half, middle + half}, ray);
+    const Vec3 &o = ray.origin, &d = ray.direction;
+    const auto [enter, leave] = inside_sphere<double>(radius, {o.x, o.y, o.z}, {d.x, d.y, d.z});
+    return boundary_hit({enter, leave}, ray);
 }
 
 // u: turn about the y axis; v: from the south pole (0) to the north pole (1).

@@ -2,9 +2,11 @@
 // answers are the same to the bit.
 //
 // u, v and w are twice the signed areas of the triangle's three parts as seen along the ray (ray_view.h). Rounding may make one zero but
-// never gives it the wrong sign, since rounded products keep their order: a triangle that encloses the ray always passes, and where one is zero
-// encloses() decides exactly which of the triangles at that edge or vertex is the ray's.
+// never gives it the wrong sign, since rounded products keep their order: a triangle that encloses the ray always passes, and confirmed()
+// decides exactly which of the triangles at an edge or vertex is the ray's.
 #pragma once
+
+#include <limits>
 
 #include "geometry/ray_view.h"
 
@@ -12,13 +14,13 @@ namespace crescente::geometry {
 
 template <class T>
 struct TriangleTest {
-    T u, v, w;  // inside if none is negative or none is positive, and where one is zero, encloses()
+    T u, v, w;  // inside if none is negative or none is positive, and confirmed()
     T t;        // parameter of the ray in the triangle's plane; NaN if the triangle has no area
 };
 
 template <class T>
-inline TriangleTest<T> test_triangle(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, math::Vec3 origin, math::Vec3 direction) {
-    const RayView view(origin, direction);
+inline TriangleTest<T> test_triangle(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const RayView& view, math::Vec3 origin,
+                                     math::Vec3 direction) {
     const ViewPoint<T> a = view(p), b = view(q), c = view(r);
     TriangleTest<T> test;
     test.u = c.x * b.y - c.y * b.x;
@@ -34,8 +36,18 @@ inline TriangleTest<T> test_triangle(const Point3<T>& p, const Point3<T>& q, con
     return test;
 }
 
-// Whether the ray is inside the triangle, with edges and vertices given to exactly one of the triangles that share them.
-inline bool encloses(const Point3<double>& p, const Point3<double>& q, const Point3<double>& r, math::Vec3 origin, math::Vec3 direction) {
+// Whether the triangle has an area that is more than rounding.
+inline bool has_area(math::Vec3 p, math::Vec3 q, math::Vec3 r) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();  // of a cross product and its factors, relative to their lengths
+    const math::Vec3 e = q - p, f = r - p, n = cross(e, f);
+    return dot(n, n) > rounding * rounding * dot(e, e) * dot(f, f);
+}
+
+// The last word on a triangle that the test found inside: whether it has an area and, for a ray on its edge or vertex, whether it is the
+// one of those sharing it that the ray belongs to. Few come here, so it is for one triangle only.
+inline bool confirmed(const TriangleTest<double>& test, math::Vec3 p, math::Vec3 q, math::Vec3 r, math::Vec3 origin, math::Vec3 direction) {
+    if (!has_area(p, q, r)) return false;
+    if (test.u != 0 && test.v != 0 && test.w != 0) return true;
     const RayView view(origin, direction);
     const ViewPoint<double> a = view(p), b = view(q), c = view(r);
     return crosses(a, b) ^ crosses(b, c) ^ crosses(c, a);

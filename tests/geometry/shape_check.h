@@ -109,7 +109,7 @@ void check_reintersection(const Shape& shape, const SignedDistance& true_distanc
         Ray ray;
         ray.origin = Vec3{double(target.x - far * (long double)d.x), double(target.y - far * (long double)d.y), double(target.z - far * (long double)d.z)};
         ray.direction = d * stretch;
-        const double h = 1e-4 * size;
+        const double h = 1e-7 * size;
         const auto at = [&](long double s) { return true_distance({target.x + s * d.x, target.y + s * d.y, target.z + s * d.z}); };
         const double incidence = static_cast<double>(std::abs(at(h) - at(-h)) / (2 * h));  // cosine to the normal
         if (incidence < 0.02) {
