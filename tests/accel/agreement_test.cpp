@@ -26,8 +26,8 @@ TEST_P(Agreement, NearestHits) {
                 accelerator->nearest(std::span(rays).subspan(i, chunk), std::span(actual).subspan(i, chunk), coherence, counts);
             }
             const auto ask = [=](const Accelerator& a, const Ray& ray) { return nearest(a, {&ray, 1}, coherence)[0]; };
-            EXPECT_EQ(disagreements<Hit>(scene, make, rays, expected, actual, ask), "")
-                << name << (coherence == Coherence::coherent ? ", coherent" : ", incoherent");
+            const std::string found = disagreements<Hit>(scene, make, rays, expected, actual, ask);
+            EXPECT_TRUE(found.empty()) << name << (coherence == Coherence::coherent ? ", coherent\n" : ", incoherent\n") << found;
             EXPECT_GT(counts.shape_tests, 0u);
             EXPECT_LT(counts.shape_tests, rays.size() * scene.instances.size() * 1000);
         }
@@ -45,8 +45,8 @@ TEST_P(Agreement, Shadows) {
         for (const Coherence coherence : {Coherence::coherent, Coherence::incoherent}) {
             const std::vector<Shadow> actual = shadow(*accelerator, rays, coherence);
             const auto ask = [=](const Accelerator& a, const Ray& ray) { return shadow(a, {&ray, 1}, coherence)[0]; };
-            EXPECT_EQ(disagreements<Shadow>(scene, make, rays, expected, actual, ask), "")
-                << name << (coherence == Coherence::coherent ? ", coherent" : ", incoherent");
+            const std::string found = disagreements<Shadow>(scene, make, rays, expected, actual, ask);
+            EXPECT_TRUE(found.empty()) << name << (coherence == Coherence::coherent ? ", coherent\n" : ", incoherent\n") << found;
             std::size_t false_occluders = 0;
             for (std::size_t i = 0; i < rays.size(); i += 37) {
                 if (actual[i].occluder.found()) false_occluders += !is_occluder(actual[i].occluder, scene.instances, rays[i]);
