@@ -56,10 +56,14 @@ struct Query {
     std::uint32_t first_ray;       // index of the packet's first ray in the batch
     std::vector<Crossing>* crossings;
     TestCounts counts;
-    // The ray in the space of the instance that was last tried, for each lane.
+    // The ray in the space of the mesh instance that was last tried, for each lane.
     std::uint32_t local_instance[packet];
-    Ray local[packet];
+    MeshRay local[packet];
+    // The same rays by component, for shapes that are tried against a whole packet. `end` is the nearer of t_max and the hit.
+    alignas(64) double ox[packet], oy[packet], oz[packet], dx[packet], dy[packet], dz[packet], start[packet], end[packet];
 };
+
+Lanes load(const double* values) { return *reinterpret_cast<const Lanes*>(values); }
 
 class Embree final : public Accelerator {
 public:
@@ -80,7 +84,8 @@ private:
     template <bool shadows>
     void trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const;
     bool clip(const Ray& ray, double& from, double& to) const;
-    const Ray& local_ray(Query& query, unsigned lane, std::uint32_t instance) const;
+    unsigned sphere_lanes(const Query& query, const Instance& instance, double radius, const int* valid, double* t) const;
+    const MeshRay& mesh_ray(Query& query, unsigned lane, std::uint32_t instance) const;
     void attach(RTCScene scene, PrimitiveSet& set);
     std::uint32_t instance_of(const RTCIntersectContext& context, const Primitive& primitive) const {
         const unsigned geometry = context.instID[0];
@@ -240,12 +245,40 @@ void Embree::attach(RTCScene scene, PrimitiveSet& set) {
     rtcReleaseGeometry(geometry);
 }
 
-const Ray& Embree::local_ray(Query& query, unsigned lane, std::uint32_t instance) const {
+const MeshRay& Embree::mesh_ray(Query& query, unsigned lane, std::uint32_t instance) const {
     if (query.local_instance[lane] != instance) {
         query.local_instance[lane] = instance;
-        query.local[lane] = to_local(instances_[instance], query.rays[lane]);
+        query.local[lane] = MeshRay(to_local(instances_[instance], query.rays[lane]));
     }
     return query.local[lane];
+}
+
+// Which lanes of a packet meet a sphere, as bits; t holds the parameter of the nearest crossing in the lane's reach.
+unsigned Embree::sphere_lanes(const Query& query, const Instance& instance, double radius, const int* valid, double* t) const {
+    const Affine& m = instance.to_local;
+    unsigned found = 0;
+    for (int first = 0; first < packet; first += lane_count) {
+        geometry::Point3<Lanes> o{load(query.ox + first), load(query.oy + first), load(query.oz + first)};
+        geometry::Point3<Lanes> d{load(query.dx + first), load(query.dy + first), load(query.dz + first)};
+        if (instance.translation) {
+            o = {o.x + m.origin.x, o.y + m.origin.y, o.z + m.origin.z};
+        } else {  // as Affine::point and Affine::vector
+            o = {m.x.x * o.x + m.y.x * o.y + m.z.x * o.z + m.origin.x, m.x.y * o.x + m.y.y * o.y + m.z.y * o.z + m.origin.y,
+                 m.x.z * o.x + m.y.z * o.y + m.z.z * o.z + m.origin.z};
+            d = {m.x.x * d.x + m.y.x * d.y + m.z.x * d.z, m.x.y * d.x + m.y.y * d.y + m.z.y * d.z, m.x.z * d.x + m.y.z * d.y + m.z.z * d.z};
+        }
+        const auto [enter, leave] = geometry::inside_sphere(radius, o, d);
+        const Lanes start = load(query.start + first), end = load(query.end + first);
+        const LaneMask enters = (enter > start) & (enter <= end), leaves = (leave > start) & (leave <= end);
+        const LaneMask hit = (enter < leave) & (enters | leaves);
+        *reinterpret_cast<Lanes*>(t + first) = enters ? enter : leave;
+        found |= bits_of(hit) << first;
+    }
+    for (unsigned rest = found; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        if (!valid[lane] || !std::isfinite(t[lane])) found ^= 1u << lane;
+    }
+    return found;
 }
 
 void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const {
@@ -253,25 +286,37 @@ void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const 
     const auto& set = *static_cast<const PrimitiveSet*>(arguments.geometryUserPtr);
     const Primitive primitive = set.primitives[arguments.primID];
     const std::uint32_t index = instance_of(query.context, primitive);
+    const Instance& instance = instances_[index];
     RTCRayN* rays = RTCRayHitN_RayN(arguments.rayhit, arguments.N);
     RTCHitN* hits = RTCRayHitN_HitN(arguments.rayhit, arguments.N);
+    const auto update = [&](unsigned i, unsigned lane, const Hit& hit) {
+        query.hits[lane] = hit;
+        query.end[lane] = hit.t;
+        const double end = hit.t - query.farther[lane];
+        RTCRayN_tfar(rays, arguments.N, i) = round_up(end + 4 * box_margin * (radius_ + std::abs(end)));
+        RTCHitN_geomID(hits, arguments.N, i) = 0;
+    };
+    if (const auto* sphere = std::get_if<geometry::Sphere>(instance.shape); sphere && arguments.N == packet) {
+        alignas(64) double t[packet];
+        query.counts.shape_tests += packet;
+        for (unsigned lanes = sphere_lanes(query, instance, sphere->radius, arguments.valid, t); lanes; lanes &= lanes - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+            if (const Hit hit{t[lane], index, 0}; before(hit, query.hits[lane])) update(lane, lane, hit);
+        }
+        return;
+    }
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
         const unsigned lane = RTCRayN_id(rays, arguments.N, i);
-        const Ray& local = local_ray(query, lane, index);
-        const Hit before_this = query.hits[lane];
+        Hit hit = query.hits[lane];
         if (primitive.is_cluster) {
-            nearest_in_cluster(set.clusters[primitive.index], index, local, query.hits[lane]);
+            nearest_in_cluster(set.clusters[primitive.index], index, mesh_ray(query, lane, index), hit);
             query.counts.shape_tests += cluster_size;
         } else {
-            nearest_in_part(instances_[index], index, primitive.index, local, query.hits[lane]);
+            nearest_in_part(instance, index, primitive.index, to_local(instance, query.rays[lane]), hit);
             ++query.counts.shape_tests;
         }
-        const Hit& now = query.hits[lane];
-        if (now.t == before_this.t && now.instance == before_this.instance && now.primitive == before_this.primitive) continue;
-        const double end = now.t - query.farther[lane];
-        RTCRayN_tfar(rays, arguments.N, i) = round_up(end + 4 * box_margin * (radius_ + std::abs(end)));
-        RTCHitN_geomID(hits, arguments.N, i) = 0;
+        if (before(hit, query.hits[lane])) update(i, lane, hit);
     }
 }
 
@@ -281,28 +326,38 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
     const Primitive primitive = set.primitives[arguments.primID];
     const std::uint32_t index = instance_of(query.context, primitive);
     const Instance& instance = instances_[index];
+    if (const auto* sphere = std::get_if<geometry::Sphere>(instance.shape); sphere && arguments.N == packet && instance.opaque) {
+        alignas(64) double t[packet];
+        query.counts.shape_tests += packet;
+        for (unsigned lanes = sphere_lanes(query, instance, sphere->radius, arguments.valid, t); lanes; lanes &= lanes - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+            query.hits[lane] = {t[lane], index, 0};
+            RTCRayN_tfar(arguments.ray, arguments.N, lane) = -INFINITY;
+        }
+        return;
+    }
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
         const unsigned lane = RTCRayN_id(arguments.ray, arguments.N, i);
-        const Ray& local = local_ray(query, lane, index);
+        const Ray& ray = query.rays[lane];
         query.counts.shape_tests += primitive.is_cluster ? cluster_size : 1;
         if (instance.opaque) {
             Hit& hit = query.hits[lane];
             if (primitive.is_cluster) {
-                nearest_in_cluster(set.clusters[primitive.index], index, local, hit);
+                nearest_in_cluster(set.clusters[primitive.index], index, mesh_ray(query, lane, index), hit);
             } else {
-                nearest_in_part(instance, index, primitive.index, local, hit);
+                nearest_in_part(instance, index, primitive.index, to_local(instance, ray), hit);
             }
             if (hit.found()) RTCRayN_tfar(arguments.ray, arguments.N, i) = -INFINITY;
         } else if (primitive.is_cluster) {
-            Doubles t;
+            Lanes t;
             const TriangleCluster& cluster = set.clusters[primitive.index];
-            for (unsigned lanes = hit_lanes(cluster, local, local.t_max, t); lanes; lanes &= lanes - 1) {
+            for (unsigned lanes = hit_lanes(cluster, mesh_ray(query, lane, index), ray.t_max, t); lanes; lanes &= lanes - 1) {
                 const int k = __builtin_ctz(lanes);
                 query.crossings->push_back({query.first_ray + lane, {t[k], index, cluster.triangle[k]}});
             }
         } else {
-            all_in_part(instance, index, primitive.index, local, query.first_ray + lane, *query.crossings);
+            all_in_part(instance, index, primitive.index, to_local(instance, ray), query.first_ray + lane, *query.crossings);
         }
     }
 }
@@ -368,6 +423,9 @@ void Embree::trace_packet(Query& query, int count) const {
             start -= moved[lane], end -= moved[lane];
         }
         valid[lane] = -1;
+        query.ox[lane] = from.origin.x, query.oy[lane] = from.origin.y, query.oz[lane] = from.origin.z;
+        query.dx[lane] = from.direction.x, query.dy[lane] = from.direction.y, query.dz[lane] = from.direction.z;
+        query.start[lane] = from.t_min, query.end[lane] = t_max;
         Access::of(ray.org_x, lane) = static_cast<float>(origin.x);
         Access::of(ray.org_y, lane) = static_cast<float>(origin.y);
         Access::of(ray.org_z, lane) = static_cast<float>(origin.z);
@@ -407,6 +465,7 @@ template <bool shadows>
 void Embree::trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const {
     Query query;
     rtcInitIntersectContext(&query.context);
+    if (coherence == Coherence::coherent) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query.accelerator = this;
     query.crossings = crossings;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -19,12 +19,20 @@ inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 struct Instance {
     const geometry::Shape* shape = nullptr;
     Affine to_world, to_local;
-    bool identity = true;  // to_world changes nothing
-    bool opaque = true;    // false: light passes, filtered; each crossing is reported to shadow rays
+    bool identity = true;     // to_world changes nothing
+    bool translation = true;  // to_world moves only
+    bool opaque = true;       // false: light passes, filtered; each crossing is reported to shadow rays
 
     Instance() = default;
     Instance(const geometry::Shape& s, const Affine& place, bool is_opaque)
-        : shape(&s), to_world(place), to_local(inverse(place)), identity(place == Affine{}), opaque(is_opaque) {}
+        : shape(&s),
+          to_world(place),
+          to_local(inverse(place)),
+          identity(place == Affine{}),
+          translation(place == Affine::translation(place.origin)),
+          opaque(is_opaque) {
+        if (translation) to_local = Affine::translation(-place.origin);
+    }
 };
 
 struct Hit {
@@ -52,7 +60,10 @@ struct Crossing {
 // The ray in the shape's space, with the same parameter t.
 inline Ray to_local(const Instance& instance, const Ray& ray) {
     Ray local = ray;
-    if (instance.identity) return local;
+    if (instance.translation) {
+        local.origin = ray.origin + instance.to_local.origin;
+        return local;
+    }
     local.origin = instance.to_local.point(ray.origin);
     local.direction = instance.to_local.vector(ray.direction);
     return local;

@@ -21,7 +21,7 @@ TriangleCluster make_cluster(const geometry::Mesh& mesh, const RTCBuildPrimitive
     for (int lane = 0; lane < cluster_size; ++lane) {
         const bool used = static_cast<std::size_t>(lane) < count;
         cluster.triangle[lane] = used ? primitives[lane].primID : none;
-        geometry::Point3<Doubles>* corners[3] = {&cluster.p, &cluster.q, &cluster.r};
+        geometry::Point3<Lanes>* corners[3] = {&cluster.p, &cluster.q, &cluster.r};
         for (int k = 0; k < 3; ++k) {
             const Vec3 v = used ? mesh.positions[mesh.triangles[cluster.triangle[lane]][k]] : filler;
             corners[k]->x[lane] = v.x, corners[k]->y[lane] = v.y, corners[k]->z[lane] = v.z;

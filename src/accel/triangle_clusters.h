@@ -43,11 +43,11 @@ inline unsigned hit_lanes(const TriangleCluster& cluster, const MeshRay& local, 
     const auto within = inside & (test.t > ray.t_min) & (test.t <= t_max);
     t = test.t;
     unsigned lanes = bits_of(within);
-    for (unsigned rest = lanes; rest; rest &= rest - 1) {  // a ray on an edge or vertex belongs to one triangle only
+    for (unsigned rest = lanes; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
-        if (test.u[i] != 0 && test.v[i] != 0 && test.w[i] != 0) continue;
-        const auto corner = [i](const geometry::Point3<Lanes>& c) { return geometry::Point3<double>{c.x[i], c.y[i], c.z[i]}; };
-        if (!geometry::encloses(corner(cluster.p), corner(cluster.q), corner(cluster.r), ray.origin, ray.direction)) lanes ^= 1u << i;
+        const auto corner = [i](const geometry::Point3<Lanes>& c) { return Vec3{c.x[i], c.y[i], c.z[i]}; };
+        const geometry::TriangleTest<double> one{test.u[i], test.v[i], test.w[i], t[i]};
+        if (!confirmed(one, corner(cluster.p), corner(cluster.q), corner(cluster.r), ray.origin, ray.direction)) lanes ^= 1u << i;
     }
     return lanes;
 }

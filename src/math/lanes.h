@@ -12,7 +12,7 @@ namespace crescente::math {
 
 inline constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
-using LaneMask = long long __attribute__((vector_size(lane_count * sizeof(double))));  // all bits set where true
+using LaneMask = decltype(Lanes{} < Lanes{});  // all bits set where true
 
 inline double square_root(double x) { return std::sqrt(x); }
 inline double fused_multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
