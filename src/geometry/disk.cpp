@@ -30,7 +30,7 @@ SurfacePoint Disk::surface(std::uint32_t, Vec3 position) const {
 const FieldTable<Disk>& Disk::fields() {
     static const FieldTable<Disk> table{
         field(&Disk::radius, {"radius", FieldType::number, "m", 0, unbounded, "Outer radius"}),
-        field(&Disk::inner_radius, {"inner_radius", FieldType::number, "m", 0, unbounded, "Radius of the hole in the middle; 0: none"}),
+        field(&Disk::inner_radius, {"inner_radius", FieldType::number, "m", 0, unbounded, "Radius of the hole; 0: none"}),
     };
     return table;
 }

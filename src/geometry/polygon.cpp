@@ -53,7 +53,8 @@ std::optional<ShapeHit> Polygon::intersect(std::uint32_t, const Ray& ray) const 
     const Facing face = facing(first);
     if (!face.has_area()) return std::nullopt;
     const double s0 = view.parameter(least), s1 = view.parameter(most);
-    const double t = parameter_between(dot(first[0] - ray.origin, face.normal) / dot(ray.direction, face.normal), std::min(s0, s1), std::max(s0, s1));
+    const double plane = dot(first[0] - ray.origin, face.normal) / dot(ray.direction, face.normal);
+    const double t = parameter_between(plane, std::min(s0, s1), std::max(s0, s1));
     return in_reach(t, ray) ? std::optional(ShapeHit{t, 0}) : std::nullopt;
 }
 

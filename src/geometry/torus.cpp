@@ -12,9 +12,9 @@ namespace {
 //     g(s) = (rho - R)^2 + y^2 - r^2,     rho = distance from the axis
 //
 // Unlike the usual quartic, which is g times its mirror image, g keeps its precision for thin tubes, and where it bends is known in
-// closed form: with c = x dz - z dx, rho'' = c^2 / rho^3, so that g'' = 2 |d|^2 - 2 R c^2 / rho^3 is negative exactly where rho^3 <
-// R c^2 / |d|^2: in one interval about the point of the line nearest to the axis. In the three intervals so made g is convex, concave and
-// convex, and the signs at the ends and at one extremum enclose every root.
+// closed form: with c = x dz - z dx, rho'' = c^2 / rho^3, so that g'' = 2 |d|^2 - 2 R c^2 / rho^3 is negative exactly where
+// rho^3 < R c^2 / |d|^2: in one interval about the point of the line nearest to the axis. In the three intervals so made g is
+// convex, concave and convex, and the signs at the ends and at one extremum enclose every root.
 struct Tube {
     Vec3 origin, direction;
     double major, minor;
@@ -52,12 +52,14 @@ struct Roots {
     double t[6];
     int count = 0;
 
-    void add(double root) {
+    // False if it cancelled the root before.
+    bool add(double root) {
         if (count > 0 && t[count - 1] >= root) {
             --count;
-        } else {
-            t[count++] = root;
+            return false;
         }
+        t[count++] = root;
+        return true;
     }
 };
 
@@ -92,20 +94,25 @@ std::optional<ShapeHit> Torus::intersect(std::uint32_t, const Ray& ray) const {
     // The slope of rho where g bends. It is taken from the closed form, since near the axis (area -> 0: a kink) rounding hides it.
     const double rho_slope = area == 0 ? std::sqrt(across2) : across2 * half_width / rho_bend;
 
+    // These return whether the nearest root in reach is known, so that those behind it need not be refined.
     Roots roots;
     const auto root_between = [&](double low, double high, bool negative_at_low, double start) {
-        roots.add(shift + bracketed_root([&](double s) { return tube.value_and_slope(s); }, low, high, negative_at_low, start));
+        if (shift + high <= ray.t_min) return false;
+        const double t = shift + bracketed_root([&](double s) { return tube.value_and_slope(s); }, low, high, negative_at_low, start);
+        return roots.add(t) && in_reach(t, ray) && t < shift + high;
     };
-    // The roots of one interval, where g bends one way. The slopes of g at its ends come from the caller.
+    // The roots of one interval, where g bends one way. The slopes of g at its ends come from the caller. Newton's method starts from
+    // the ends, where it comes near the root from one side.
     const auto search = [&](double low, double high, double value_low, double value_high, double slope_low, double slope_high,
                             bool convex) {
         const bool negative_low = value_low < 0, negative_high = value_high < 0;
+        const double after_low = low - value_low / slope_low, before_high = high - value_high / slope_high;
         if (negative_low != negative_high) {
-            root_between(low, high, negative_low, negative_low == convex ? high : low);
-            return;
+            return root_between(low, high, negative_low, negative_low == convex ? before_high : after_low);
         }
         // Both ends on the side away from which g bends: none, or two about the extremum.
-        if (negative_low == convex || (slope_low < 0) == (slope_high < 0) || (slope_low < 0) != convex) return;
+        if (negative_low == convex || (slope_low < 0) == (slope_high < 0) || (slope_low < 0) != convex) return false;
+        if (!(after_low <= before_high)) return false;  // g stays beyond its tangents at the ends, which meet on this side
         double middle = 0;
         bool crossed = false;
         const auto slope = [&](double s) -> ValueAndSlope {
@@ -115,31 +122,29 @@ std::optional<ShapeHit> Torus::intersect(std::uint32_t, const Ray& ray) const {
             return tube.slope_and_bend(s, area2);
         };
         bracketed_root(slope, low, high, slope_low < 0, low + (high - low) * (slope_low / (slope_low - slope_high)));
-        if (!crossed) return;
-        root_between(low, middle, negative_low, low);
-        root_between(middle, high, !negative_low, high);
+        if (!crossed) return false;
+        return root_between(low, middle, negative_low, after_low) || root_between(middle, high, !negative_low, before_high);
     };
 
     const double low = reach.enter, high = reach.leave;
     const ValueAndSlope at_low = tube.value_and_slope(low), at_high = tube.value_and_slope(high);
     const double bend_low = nearest - half_width, bend_high = nearest + half_width;
-    if (!bends || bend_low >= high || bend_high <= low) {
-        search(low, high, at_low.value, at_high.value, at_low.slope, at_high.slope, true);
-    } else {
+    const auto search_all = [&] {
+        if (!bends || bend_low >= high || bend_high <= low) {
+            return search(low, high, at_low.value, at_high.value, at_low.slope, at_high.slope, true);
+        }
         double from = low, value = at_low.value, slope = at_low.slope;
         if (bend_low > low) {
-            const double v = tube.value(bend_low);
-            search(from, bend_low, value, v, slope, tube.slope(bend_low, -rho_slope), true);
-            from = bend_low, value = v, slope = tube.slope(bend_low, -rho_slope);
+            const double v = tube.value(bend_low), falling = tube.slope(bend_low, -rho_slope);
+            if (search(from, bend_low, value, v, slope, falling, true)) return true;
+            from = bend_low, value = v, slope = falling;
         }
-        if (bend_high < high) {
-            const double v = tube.value(bend_high);
-            if (bend_high > from) search(from, bend_high, value, v, slope, tube.slope(bend_high, rho_slope), false);
-            search(bend_high, high, v, at_high.value, tube.slope(bend_high, rho_slope), at_high.slope, true);
-        } else {
-            search(from, high, value, at_high.value, slope, at_high.slope, false);
-        }
-    }
+        if (bend_high >= high) return search(from, high, value, at_high.value, slope, at_high.slope, false);
+        const double v = tube.value(bend_high), rising = tube.slope(bend_high, rho_slope);
+        if (bend_high > from && search(from, bend_high, value, v, slope, rising, false)) return true;
+        return search(bend_high, high, v, at_high.value, rising, at_high.slope, true);
+    };
+    search_all();
 
     for (int i = 0; i < roots.count; ++i) {
         if (in_reach(roots.t[i], ray)) return ShapeHit{roots.t[i], 0};

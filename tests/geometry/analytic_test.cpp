@@ -21,7 +21,8 @@ TEST(Analytic, sphere) {
     EXPECT_EQ(parameters(Sphere{1}, {0, 0, 0}, {0, 1, 0}), (Parameters{1}));
     EXPECT_EQ(parameters(Sphere{1}, {0, 1, -3}, {0, 0, 1}), (Parameters{}));  // a touch is no crossing
     EXPECT_EQ(parameters(Sphere{0}, {0, 0, -3}, {0, 0, 1}), (Parameters{}));
-    const SurfacePoint east = Sphere{2}.surface(0, {2, 0, 0}), north = Sphere{2}.surface(0, {0, 2, 0}), front = Sphere{2}.surface(0, {0, 0, 2});
+    const Sphere two{2};
+    const SurfacePoint east = two.surface(0, {2, 0, 0}), north = two.surface(0, {0, 2, 0}), front = two.surface(0, {0, 0, 2});
     EXPECT_EQ(east.u, 0);
     EXPECT_EQ(east.v, 0.5);
     EXPECT_EQ(north.v, 1);

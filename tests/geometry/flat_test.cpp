@@ -24,7 +24,8 @@ Mesh ball(int rings, int sectors, std::uint64_t seed, double size, Vec3 center) 
     }
     place(pi / 2, 0);
     const auto index = [&](int ring, int k) {
-        return ring == 0 ? 0u : ring == rings ? std::uint32_t(mesh.positions.size() - 1) : std::uint32_t(1 + (ring - 1) * sectors + k % sectors);
+        if (ring == 0) return 0u;
+        return ring == rings ? std::uint32_t(mesh.positions.size() - 1) : std::uint32_t(1 + (ring - 1) * sectors + k % sectors);
     };
     for (int i = 0; i < rings; ++i) {
         for (int k = 0; k < sectors; ++k) {
@@ -59,7 +60,7 @@ TEST(Watertight, closed_mesh_and_polygons) {
                 const bool from_inside = i % 2 == 0;
                 ray.origin = center + (from_inside ? random.inside_cube() * (0.3 * size) : random.direction() * (4 * size));
                 if (i % 5 == 0) ray.origin = center;
-                if (i % 7 == 0) ray.origin = from_inside ? Vec3{target.x, center.y, center.z} : Vec3{target.x, target.y, center.z + 4 * size};
+                if (i % 7 == 0) ray.origin = {target.x, from_inside ? center.y : target.y, center.z + (from_inside ? 0 : 4 * size)};
                 const bool inside = length(ray.origin - center) < 0.5 * size;
                 ray.direction = target - ray.origin;
                 if (i % 7 == 0) ray.direction = from_inside ? Vec3{0, ray.direction.y, ray.direction.z} : Vec3{0, 0, -1};
@@ -158,7 +159,8 @@ TEST(Mesh, shading_normals_and_slots) {
 
 // A comb (not convex) with a square hole, in any plane.
 TEST(Polygon, not_convex_with_hole) {
-    const std::vector<std::pair<double, double>> outline{{0, 0}, {6, 0}, {6, 4}, {5, 4}, {5, 2}, {4, 2}, {4, 4}, {0, 4}}, hole{{1, 1}, {1, 3}, {3, 3}, {3, 1}};
+    const std::vector<std::pair<double, double>> outline{{0, 0}, {6, 0}, {6, 4}, {5, 4}, {5, 2}, {4, 2}, {4, 4}, {0, 4}};
+    const std::vector<std::pair<double, double>> hole{{1, 1}, {1, 3}, {3, 3}, {3, 1}};
     const auto inside = [](double x, double y) {
         const bool outer = x > 0 && x < 6 && y > 0 && y < 4 && !(x > 4 && x < 5 && y > 2);
         return outer && !(x > 1 && x < 3 && y > 1 && y < 3);
@@ -173,15 +175,17 @@ TEST(Polygon, not_convex_with_hole) {
         }
         // The plane that the rounded points mean.
         const auto& first = polygon.loops[0];
+        const auto from_first = [&](Vec3 p) {
+            return Exact{(long double)p.x - first[0].x, (long double)p.y - first[0].y, (long double)p.z - first[0].z};
+        };
         Exact m{0, 0, 0};
         for (std::size_t k = 2; k < first.size(); ++k) {
-            const Exact a{(long double)first[k - 1].x - first[0].x, (long double)first[k - 1].y - first[0].y, (long double)first[k - 1].z - first[0].z};
-            const Exact b{(long double)first[k].x - first[0].x, (long double)first[k].y - first[0].y, (long double)first[k].z - first[0].z};
+            const Exact a = from_first(first[k - 1]), b = from_first(first[k]);
             m = {m.x + a.y * b.z - a.z * b.y, m.y + a.z * b.x - a.x * b.z, m.z + a.x * b.y - a.y * b.x};
         }
         const auto off = [&](Vec3 p) {
-            return std::abs((p.x - (long double)first[0].x) * m.x + (p.y - (long double)first[0].y) * m.y + (p.z - (long double)first[0].z) * m.z) /
-                   std::hypot(m.x, m.y, m.z);
+            const Exact q = from_first(p);
+            return std::abs(q.x * m.x + q.y * m.y + q.z * m.z) / std::hypot(m.x, m.y, m.z);
         };
         const double blur = eps * (length(o) + 20);
         for (int i = 0; i < 2000; ++i) {

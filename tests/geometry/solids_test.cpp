@@ -136,7 +136,10 @@ TEST(Solids, torus) {
     check_all(torus(0, 1));       // a sphere
     check_all(torus(1, 0.02));
     check_reintersection(torus(1, 0.25).shape, torus(1, 0.25).distance, torus(1, 0.25).point, 1.25, 10, 100000, 9);
+    check_no_self_hit(torus(1, 0.25).shape, 1, 100000, 5, false);
+    check_no_self_hit(torus(0.5, 1).shape, 1, 100000, 5, false);
     check_hostile_rays(torus(1, 0.25).shape);
+    check_hostile_rays(torus(0, 0).shape);
 }
 
 }  // namespace
