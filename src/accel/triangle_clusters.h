@@ -20,7 +20,8 @@ struct TriangleCluster {
     std::uint32_t triangle[cluster_size];
 };
 
-// Clusters of neighbours, from the leaves of a surface area hierarchy built by Embree. `device` must not be null.
+// Clusters of neighbours, from the leaves of a surface area hierarchy built by Embree. `device` must not be null; finite coordinates
+// must be below 1e17. Triangles with a corner that is not finite are left out: they cannot be hit.
 std::vector<TriangleCluster> cluster_triangles(const geometry::Mesh& mesh, RTCDeviceTy* device);
 
 // Bounds of the cluster under a transform.
@@ -38,15 +39,16 @@ struct MeshRay {
 // Lanes whose triangle the ray meets within t_min < t <= t_max, as bits; t holds the parameters.
 inline unsigned hit_lanes(const TriangleCluster& cluster, const MeshRay& local, double t_max, Lanes& t) {
     const Ray& ray = local.ray;
-    const auto test = geometry::test_triangle(cluster.p, cluster.q, cluster.r, local.view, ray.origin, ray.direction);
-    const auto inside = ((test.u >= 0.0) & (test.v >= 0.0) & (test.w >= 0.0)) | ((test.u <= 0.0) & (test.v <= 0.0) & (test.w <= 0.0));
-    const auto within = inside & (test.t > ray.t_min) & (test.t <= t_max);
-    t = test.t;
-    unsigned lanes = bits_of(within);
+    const auto sides = geometry::triangle_sides(cluster.p, cluster.q, cluster.r, local.view);
+    const LaneMask inside = ((sides.u >= 0.0) & (sides.v >= 0.0) & (sides.w >= 0.0)) | ((sides.u <= 0.0) & (sides.v <= 0.0) & (sides.w <= 0.0));
+    unsigned lanes = bits_of(inside);
+    if (!lanes) return 0;  // most clusters that are tried
+    t = geometry::triangle_parameter(sides, cluster.p, cluster.q, cluster.r, local.view, ray.origin, ray.direction);
+    lanes &= bits_of((t > ray.t_min) & (t <= t_max));
     for (unsigned rest = lanes; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
         const auto corner = [i](const geometry::Point3<Lanes>& c) { return Vec3{c.x[i], c.y[i], c.z[i]}; };
-        const geometry::TriangleTest<double> one{test.u[i], test.v[i], test.w[i], t[i]};
+        const geometry::TriangleSides<double> one{sides.u[i], sides.v[i], sides.w[i], 0, 0, 0};
         if (!confirmed(one, corner(cluster.p), corner(cluster.q), corner(cluster.r), ray.origin, ray.direction)) lanes ^= 1u << i;
     }
     return lanes;

@@ -22,11 +22,13 @@ std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) cons
     const auto& triangle = triangles[part];
     const Vec3 p = positions[triangle[0]], q = positions[triangle[1]], r = positions[triangle[2]];
     const auto corner = [](Vec3 v) { return Point3<double>{v.x, v.y, v.z}; };
-    const TriangleTest<double> test = test_triangle(corner(p), corner(q), corner(r), RayView(ray.origin, ray.direction), ray.origin, ray.direction);
-    const bool inside = (test.u >= 0 && test.v >= 0 && test.w >= 0) || (test.u <= 0 && test.v <= 0 && test.w <= 0);
-    if (!inside || !(test.t > ray.t_min && test.t <= ray.t_max)) return std::nullopt;
-    if (!confirmed(test, p, q, r, ray.origin, ray.direction)) return std::nullopt;
-    return ShapeHit{test.t, part};
+    const RayView view(ray.origin, ray.direction);
+    const TriangleSides<double> sides = triangle_sides(corner(p), corner(q), corner(r), view);
+    const bool inside = (sides.u >= 0 && sides.v >= 0 && sides.w >= 0) || (sides.u <= 0 && sides.v <= 0 && sides.w <= 0);
+    if (!inside) return std::nullopt;
+    const double t = triangle_parameter(sides, corner(p), corner(q), corner(r), view, ray.origin, ray.direction);
+    if (!(t > ray.t_min && t <= ray.t_max) || !confirmed(sides, p, q, r, ray.origin, ray.direction)) return std::nullopt;
+    return ShapeHit{t, part};
 }
 
 SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {

@@ -12,28 +12,30 @@
 
 namespace crescente::geometry {
 
+// The ray's place among the edges: inside if none of u, v, w is negative or none is positive, and confirmed().
 template <class T>
-struct TriangleTest {
-    T u, v, w;  // inside if none is negative or none is positive, and confirmed()
-    T t;        // parameter of the ray in the triangle's plane; NaN if the triangle has no area
+struct TriangleSides {
+    T u, v, w;
+    T depth_p, depth_q, depth_r;
 };
 
 template <class T>
-inline TriangleTest<T> test_triangle(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const RayView& view, math::Vec3 origin,
-                                     math::Vec3 direction) {
+inline TriangleSides<T> triangle_sides(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const RayView& view) {
     const ViewPoint<T> a = view(p), b = view(q), c = view(r);
-    TriangleTest<T> test;
-    test.u = c.x * b.y - c.y * b.x;
-    test.v = a.x * c.y - a.y * c.x;
-    test.w = b.x * a.y - b.y * a.x;
+    return {c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x, a.depth, b.depth, c.depth};
+}
+
+// The ray's parameter in the triangle's plane; NaN if the triangle has no area.
+template <class T>
+inline T triangle_parameter(const TriangleSides<T>& sides, const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const RayView& view,
+                            math::Vec3 origin, math::Vec3 direction) {
     const T ex = q.x - p.x, ey = q.y - p.y, ez = q.z - p.z;
     const T fx = r.x - p.x, fy = r.y - p.y, fz = r.z - p.z;
     const T nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
     const T t = ((p.x - origin.x) * nx + (p.y - origin.y) * ny + (p.z - origin.z) * nz) / (nx * direction.x + ny * direction.y + nz * direction.z);
-    const T s0 = view.parameter(a.depth), s1 = view.parameter(b.depth), s2 = view.parameter(c.depth);
+    const T s0 = view.parameter(sides.depth_p), s1 = view.parameter(sides.depth_q), s2 = view.parameter(sides.depth_r);
     const T low = s0 < s1 ? s0 : s1, high = s0 < s1 ? s1 : s0;
-    test.t = parameter_between(t, T(s2 < low ? s2 : low), T(s2 > high ? s2 : high));
-    return test;
+    return parameter_between(t, T(s2 < low ? s2 : low), T(s2 > high ? s2 : high));
 }
 
 // Whether the triangle has an area that is more than rounding.
@@ -45,9 +47,9 @@ inline bool has_area(math::Vec3 p, math::Vec3 q, math::Vec3 r) {
 
 // The last word on a triangle that the test found inside: whether it has an area and, for a ray on its edge or vertex, whether it is the
 // one of those sharing it that the ray belongs to. Few come here, so it is for one triangle only.
-inline bool confirmed(const TriangleTest<double>& test, math::Vec3 p, math::Vec3 q, math::Vec3 r, math::Vec3 origin, math::Vec3 direction) {
+inline bool confirmed(const TriangleSides<double>& sides, math::Vec3 p, math::Vec3 q, math::Vec3 r, math::Vec3 origin, math::Vec3 direction) {
     if (!has_area(p, q, r)) return false;
-    if (test.u != 0 && test.v != 0 && test.w != 0) return true;
+    if (sides.u != 0 && sides.v != 0 && sides.w != 0) return true;
     const RayView view(origin, direction);
     const ViewPoint<double> a = view(p), b = view(q), c = view(r);
     return crosses(a, b) ^ crosses(b, c) ^ crosses(c, a);

@@ -24,6 +24,7 @@ std::uint32_t samples_in(const Tile& tile, const Quad& quad) {
 
 // The step of the finest grid that is whole: every corner of it has a root. 0: none.
 int whole_grid(const Tile& tile) {
+    if (tile.corners.empty()) return 0;
     for (int step = 1; step <= 8; step *= 2) {
         bool whole = true;
         for (int y = 0; whole && y <= tile.height; ++y) {
@@ -57,9 +58,9 @@ std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance,
 }  // namespace
 
 std::vector<Rgb> develop(const Tile& tile) {
-    if (tile.pixels_stage > tile.stage) return tile.pixels;
+    if (tile.shows_pixels()) return tile.pixels;
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
-    const int step = tile.corners.empty() ? 0 : whole_grid(tile);
+    const int step = tile.quads.empty() ? whole_grid(tile) : 1;
     if (step == 0) return std::vector<Rgb>(count);
     const std::vector<Rgb> radiance = radiances(tile);
     if (step > 1) return interpolate(tile, radiance, step);
@@ -99,7 +100,9 @@ scene::Image blank_image(int width, int height, bool all_layers) {
 }
 
 void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image) {
-    const std::vector<Rgb> pixels = develop(tile);
+    std::vector<Rgb> developed;
+    if (!tile.shows_pixels()) developed = develop(tile);
+    const std::vector<Rgb>& pixels = tile.shows_pixels() ? tile.pixels : developed;
     for (int y = 0; y < tile.height; ++y) {
         float* row = &image.layers[0].values[3 * (static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0)];
         for (int x = 0; x < tile.width; ++x) {

@@ -79,14 +79,16 @@ struct Tile {
     int stage = 0;           // stages of growth that are complete
     std::size_t cursor = 0;  // work of the next stage that is done
     std::vector<std::uint32_t> todo;  // what the next stage works through: its meaning is the stage's
-    std::vector<Rgb> pixels;  // what the trees gave before they were dropped
-    int pixels_stage = -1;    // stages that were complete then; -1: never dropped
+    std::vector<Rgb> pixels;  // what the trees gave at an earlier time: before they were dropped, or left unlit
+    int pixels_stage = -1;    // stages that were complete then; -1: never
+    bool lit = true;          // false: some nodes wait for their light
 
     RayCounts rays;
     TestCounts tests;
 
     std::size_t bytes() const;
-    int shown_stage() const { return stage > pixels_stage ? stage : pixels_stage; }
+    bool shows_pixels() const { return pixels_stage > stage || !lit; }
+    int shown_stage() const { return shows_pixels() ? pixels_stage : stage; }
     std::uint32_t& corner(int x, int y) { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
     std::uint32_t corner(int x, int y) const { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
 };

@@ -21,11 +21,13 @@ inline constexpr std::size_t chunk_size = 256;
 
 class Growth {
 public:
-    Growth(const World& world, Tile& tile) : world_(world), settings_(world.scene.settings), tile_(tile) {}
+    // unseen: nobody looks at the tile before its shadows are done, so light without shadows need not be computed.
+    Growth(const World& world, Tile& tile, bool unseen) : world_(world), settings_(world.scene.settings), tile_(tile), unseen_(unseen) {}
 
     const World& world() const { return world_; }
     const scene::Settings& settings() const { return settings_; }
     Tile& tile() { return tile_; }
+    bool unseen() const { return unseen_; }
 
     // Traces camera rays and appends their roots, in order, without light. Returns the index of the first. `tried_first`, if not
     // empty, lists for each point four roots whose objects are tried first (coherent sub-pixel rays).
@@ -59,6 +61,7 @@ private:
     const World& world_;
     const scene::Settings& settings_;
     Tile& tile_;
+    bool unseen_;
 
     // Scratch, kept between chunks.
     std::vector<geometry::Ray> rays_;

@@ -16,6 +16,7 @@ bool advance_shadows(Growth& growth, const Stage&, const Deadline& deadline) {
         tile.cursor += chunk.size();
         if (deadline.passed()) return false;
     }
+    tile.lit = true;
     return true;
 }
 

@@ -47,7 +47,11 @@ bool advance_visible(Growth& growth, const Stage& stage, const Deadline& deadlin
         roots.resize(points.size());
         std::iota(roots.begin(), roots.end(), first);
         for (std::size_t i = 0; i < points.size(); ++i) *targets[i] = roots[i];
-        growth.light(roots, false, accel::Coherence::coherent);
+        if (growth.unseen()) {
+            tile.lit = false;
+        } else {
+            growth.light(roots, false, accel::Coherence::coherent);
+        }
         points.clear();
         targets.clear();
         stopped = deadline.passed();

@@ -4,22 +4,21 @@
 
 namespace crescente::render {
 
-std::vector<Work> next_work(std::span<const TileState> tiles, int stages, bool ceiling, std::size_t batch) {
+std::vector<Work> next_work(std::span<const TileState> tiles, const Plan& plan) {
     std::vector<Work> work;
-    const std::size_t most = ceiling ? batch : tiles.size();
+    const std::size_t most = plan.batch ? plan.batch : tiles.size();
     const auto kept = [](const TileState& t) { return t.stage == t.shown_stage; };
-    int lowest = stages;
+    int lowest = plan.stages;
     for (const TileState& t : tiles) {
         if (kept(t)) lowest = std::min(lowest, t.stage);
     }
-    if (lowest < stages) {
-        for (std::uint32_t i = 0; i < tiles.size() && work.size() < most; ++i) {
-            if (kept(tiles[i]) && tiles[i].stage == lowest) work.push_back({i, lowest + 1});
-        }
-        return work;
+    const int until = plan.even || lowest == 0 ? lowest + 1 : plan.stages;
+    for (std::uint32_t i = 0; lowest < plan.stages && i < tiles.size() && work.size() < most; ++i) {
+        if (kept(tiles[i]) && tiles[i].stage == lowest) work.push_back({i, until});
     }
+    if (!work.empty()) return work;
     for (std::uint32_t i = 0; i < tiles.size() && work.size() < most; ++i) {
-        if (tiles[i].shown_stage < stages) work.push_back({i, stages});
+        if (tiles[i].shown_stage < plan.stages) work.push_back({i, plan.stages});
     }
     return work;
 }

@@ -18,10 +18,16 @@ struct Work {
     int until;  // stage to reach
 };
 
-// The next round of work: tiles independent of each other. Without a memory ceiling (0): every tile of the lowest stage advances by one
-// stage, so that the whole picture grows evenly. With one, at most `batch` tiles a round, so that memory can be looked
-// at between rounds; tiles whose trees were dropped come last, and are grown anew to the end in one go. Empty: all is done.
-std::vector<Work> next_work(std::span<const TileState> tiles, int stages, bool ceiling, std::size_t batch);
+struct Plan {
+    int stages = 0;           // of a finished tile
+    bool even = true;         // every tile of the lowest stage advances by one stage, so that the whole picture grows evenly; else, after
+                              // the first stage, tiles go to the end
+    std::size_t batch = 0;    // most tiles a round, so that memory can be looked at between rounds; 0: all
+};
+
+// The next round of work: tiles independent of each other. Tiles whose trees were dropped come last, and are grown anew to the end
+// in one go. Empty: all is done.
+std::vector<Work> next_work(std::span<const TileState> tiles, const Plan& plan);
 
 // Which tiles to drop so that the kept bytes fit under the ceiling: first those that are finished (their states change the picture no
 // more), then those that are least far, the later ones first. `floor` is what a dropped tile still takes.

@@ -13,6 +13,8 @@ namespace crescente::render {
 using Clock = std::chrono::steady_clock;
 
 struct Session::State {
+    State(std::unique_ptr<World> made, int threads) : world(std::move(made)), pool(threads) {}
+
     std::unique_ptr<World> world;
     mutable parallel::Pool pool;
     std::vector<Stage> stages;
@@ -22,6 +24,7 @@ struct Session::State {
     std::vector<RayCounts> level_rays;     // by level
     double build_seconds = 0, render_seconds = 0;
     std::uint64_t peak_bytes = 0, drops = 0;
+    std::atomic<std::uint64_t> dropped_bytes = 0, dropped_nodes = 0;  // of finished tiles that were not kept
 
     int tiles_across() const { return (width() + tile_size() - 1) / tile_size(); }
     int width() const { return world->scene.settings.width; }
@@ -31,7 +34,7 @@ struct Session::State {
     void plan();
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
     Tile regrown(const Tile& tile) const;
-    void drop(Tile& tile) const;
+    static void drop(Tile& tile);
     std::vector<TileState> tile_states() const;
     Progress progress(const std::vector<TileState>& states) const;
 };
@@ -69,7 +72,12 @@ void Session::State::plan() {
 }
 
 bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadline) const {
-    Growth growth(*world, tile);
+    const bool unseen = until > tile.stage + 1 && level_of_stage[static_cast<std::size_t>(until - 1)] > scene::Level::visible;
+    if (unseen && tile.stage > 0 && !tile.shows_pixels()) {
+        tile.pixels = develop(tile);
+        tile.pixels_stage = tile.stage;
+    }
+    Growth growth(*world, tile, unseen);
     while (tile.stage < until) {
         const Stage& stage = stages[static_cast<std::size_t>(tile.stage)];
         if (!kind_of(stage.level).advance(growth, stage, deadline)) return false;
@@ -87,10 +95,10 @@ Tile Session::State::regrown(const Tile& tile) const {
     return copy;
 }
 
-void Session::State::drop(Tile& tile) const {
+void Session::State::drop(Tile& tile) {
     Tile rest = blank_tile(tile);
-    rest.pixels = develop(tile);
     rest.pixels_stage = tile.shown_stage();
+    rest.pixels = develop(tile);
     rest.rays = tile.rays;
     rest.tests = tile.tests;
     tile = std::move(rest);
@@ -125,7 +133,7 @@ Expected<Session> Session::open(scene::Scene scene) {
     const int threads = scene.settings.threads;
     auto world = world_of(std::move(scene));
     if (!world) return tl::unexpected(world.error());
-    auto state = std::make_unique<State>(State{std::move(*world), parallel::Pool(threads), {}, {}, {}, {}, {}});
+    auto state = std::make_unique<State>(std::move(*world), threads);
     state->plan();
     state->build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return Session(std::move(state));
@@ -141,10 +149,11 @@ Progress Session::advance(const Deadline& deadline) {
     const auto start = Clock::now();
     const auto ceiling = static_cast<std::uint64_t>(s.world->scene.settings.memory);
     const int stages = static_cast<int>(s.stages.size());
-    const std::size_t batch = 4 * static_cast<std::size_t>(s.pool.threads());
+    const bool keep = s.world->scene.settings.keep;
+    const Plan plan{stages, s.world->scene.settings.order == scene::Order::even, ceiling ? 4 * static_cast<std::size_t>(s.pool.threads()) : 0};
     std::vector<TileState> states = s.tile_states();
     while (true) {
-        const std::vector<Work> work = next_work(states, stages, ceiling > 0, batch);
+        const std::vector<Work> work = next_work(states, plan);
         if (work.empty()) break;
         const auto round = Clock::now();
         const auto rays_of = [&] {
@@ -155,7 +164,12 @@ Progress Session::advance(const Deadline& deadline) {
         const RayCounts before = rays_of();
         const auto level = static_cast<std::size_t>(s.stages[static_cast<std::size_t>(work[0].until - 1)].level);
         s.pool.for_each(work.size(), [&](std::size_t i) {
-            if (!deadline.passed()) s.advance_tile(s.tiles[work[i].tile], work[i].until, deadline);
+            if (deadline.passed()) return;
+            Tile& tile = s.tiles[work[i].tile];
+            if (!s.advance_tile(tile, work[i].until, deadline) || keep || tile.stage < stages) return;
+            s.dropped_bytes += tile.bytes();
+            s.dropped_nodes += tile.nodes.size();
+            State::drop(tile);
         });
         const RayCounts after = rays_of();
         RayCounts& rays = s.level_rays[level];
@@ -170,7 +184,7 @@ Progress Session::advance(const Deadline& deadline) {
         if (ceiling > 0 && bytes > ceiling) {
             const auto floor = sizeof(Rgb) * static_cast<std::uint64_t>(s.tile_size()) * static_cast<std::uint64_t>(s.tile_size());
             const auto victims = tiles_to_drop(states, stages, ceiling, floor);
-            s.pool.for_each(victims.size(), [&](std::size_t i) { s.drop(s.tiles[victims[i]]); });
+            s.pool.for_each(victims.size(), [&](std::size_t i) { State::drop(s.tiles[victims[i]]); });
             s.drops += victims.size();
             states = s.tile_states();
         }
@@ -185,7 +199,7 @@ scene::Image Session::picture(bool all_layers) const {
     scene::Image image = blank_image(s.width(), s.height(), all_layers);
     s.pool.for_each(s.tiles.size(), [&](std::size_t i) {
         const Tile& tile = s.tiles[i];
-        if (all_layers && tile.pixels_stage > tile.stage) {
+        if (all_layers && tile.shows_pixels()) {
             expose(s.regrown(tile), *s.world, s.level_of_stage, image);
         } else {
             expose(tile, *s.world, s.level_of_stage, image);
@@ -211,7 +225,8 @@ Stats Session::stats() const {
     stats.peak_forest_bytes = std::max(s.peak_bytes, stats.forest_bytes);
     stats.accelerator_bytes = s.world->accelerator->bytes();
     stats.dropped_tiles = s.drops;
-    stats.bytes_per_pixel = static_cast<double>(stats.peak_forest_bytes) / (double(s.width()) * s.height());
+    stats.nodes += s.dropped_nodes;
+    stats.bytes_per_pixel = static_cast<double>(s.dropped_bytes + std::max(s.peak_bytes, stats.forest_bytes)) / (double(s.width()) * s.height());
     stats.render_seconds = s.render_seconds;
     stats.build_seconds = s.build_seconds;
     stats.threads = s.pool.threads();
@@ -224,7 +239,7 @@ std::string Session::describe(int x, int y) {
     const State& s = *state_;
     if (x < 0 || y < 0 || x >= s.width() || y >= s.height()) return {};
     const Tile& tile = s.tiles[static_cast<std::size_t>(y / s.tile_size()) * s.tiles_across() + x / s.tile_size()];
-    if (tile.pixels_stage > tile.stage) return describe_pixel(s.regrown(tile), *s.world, x - tile.x0, y - tile.y0);
+    if (tile.shows_pixels()) return describe_pixel(s.regrown(tile), *s.world, x - tile.x0, y - tile.y0);
     return describe_pixel(tile, *s.world, x - tile.x0, y - tile.y0);
 }
 

@@ -23,12 +23,12 @@ struct Stats {
     RayCounts rays;
     TestCounts tests;
     std::vector<LevelStats> levels;
-    std::uint64_t nodes = 0;           // kept now
+    std::uint64_t nodes = 0;           // grown; all of them are kept unless settings.keep is false
     std::uint64_t forest_bytes = 0;    // kept now
     std::uint64_t peak_forest_bytes = 0;
     std::uint64_t accelerator_bytes = 0;
     std::uint64_t dropped_tiles = 0;   // states given up under the memory ceiling
-    double bytes_per_pixel = 0;        // of the forest, at its peak
+    double bytes_per_pixel = 0;        // what the grown forest takes, or would if it were kept
     double render_seconds = 0;         // inside advance()
     double build_seconds = 0;          // acceleration structure
     int threads = 0;

@@ -11,6 +11,10 @@ enum class Level { visible, shadows, reflections, edges };
 enum class Tonemap { automatic, srgb, neutral };
 enum class AcceleratorKind { embree, kay_kajiya, linear };
 enum class SubpixelShortcut { off, exact, trust };
+enum class Order {
+    even,   // the whole picture grows evenly: for whoever watches
+    tiles,  // after the first coarse picture one tile after the other to the end: faster, for whoever waits
+};
 
 struct Settings {
     int width = 1280, height = 720;
@@ -27,6 +31,8 @@ struct Settings {
     bool octant_rejection = true;  // kay-kajiya
     bool priority_queue = true;    // kay-kajiya
     bool shadow_cache = true;
+    Order order = Order::even;
+    bool keep = true;              // keep the trees of finished tiles; false: their pixels only
     int tile = 64;                 // edge of a tile, pixels
     int threads = 0;               // 0: all
     std::int64_t memory = 0;       // ceiling for the forest, bytes; 0: none
