@@ -71,6 +71,17 @@ std::optional<FieldValue> value_of(const Json& json, const FieldInfo& info, doub
     return std::nullopt;
 }
 
+// The same for a colour's component, a float: attenuation is a colour measured by length.
+double component_in(float component, double scale) {
+    if (scale == 1) return short_double(component);
+    const double nearest = double{component} / scale;
+    for (int digits = 6; digits < 17; ++digits) {
+        const double rounded = rounded_to(nearest, digits);
+        if (static_cast<float>(rounded * scale) == component) return rounded;
+    }
+    return nearest;
+}
+
 // A number with the fewest digits that `same` accepts, near `value`; nothing if none is accepted.
 template <class Same>
 std::optional<double> shortest(double value, Same&& same) {
@@ -158,8 +169,7 @@ ordered_json write_value(const FieldValue& value, const FieldInfo& info, const M
         ordered_json array = ordered_json::array();
         for (const double component : *three) {
             const bool color = info.type == FieldType::color;
-            array.push_back(number_json(color ? short_double(static_cast<float>(length_in(component, scale)))
-                                              : length_in(component, scale)));
+            array.push_back(number_json(color ? component_in(static_cast<float>(component), scale) : length_in(component, scale)));
         }
         return array;
     }

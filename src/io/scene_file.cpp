@@ -381,13 +381,14 @@ private:
     NodeId stripped(NodeId root) {
         std::vector<NodeId> open;
         const auto copy_of = [&](NodeId node) {
-            const auto [found, is_new] = loading_.without_materials.try_emplace(node.value, NodeId{});
-            if (is_new) {
-                found->second = loading_.new_node();
-                scene().nodes[found->second.value] = scene().nodes[node.value];
-                open.push_back(node);
-            }
-            return found->second;
+            auto& done = loading_.without_materials;
+            if (const auto found = done.find(node.value); found != done.end()) return found->second;
+            const NodeId copy = loading_.new_node();
+            scene().nodes[copy.value] = scene().nodes[node.value];
+            done[node.value] = copy;
+            done[copy.value] = copy;  // nothing is left to take away from it
+            open.push_back(node);
+            return copy;
         };
         const NodeId result = copy_of(root);
         while (!open.empty()) {

@@ -1,10 +1,13 @@
 // Encodes pictures with OpenImageIO, into memory: writing the file safely is the program's matter.
 #include "io/oiio/module.h"
 
+#include <cerrno>
+#include <cstring>
 #include <string>
-#include <vector>
 
-#include <OpenImageIO/filesystem.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <OpenImageIO/imageio.h>
 
 namespace {
@@ -25,16 +28,44 @@ OIIO::ImageSpec spec_of(const CrescenteEncodeRequest& request) {
     return spec;
 }
 
-std::string encode(const CrescenteEncodeRequest& request, std::vector<unsigned char>& bytes) {
+// A file in memory with a path: every format can write to it. (With OpenImageIO's own memory streams TIFF files come out broken.)
+class MemoryFile {
+public:
+    MemoryFile() : descriptor_(memfd_create("picture", MFD_CLOEXEC)) {}
+    ~MemoryFile() {
+        if (descriptor_ >= 0) close(descriptor_);
+    }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    bool open() const { return descriptor_ >= 0; }
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    bool read(std::string& bytes) const {
+        const off_t size = lseek(descriptor_, 0, SEEK_END);
+        if (size < 0) return false;
+        bytes.resize(static_cast<std::size_t>(size));
+        for (std::size_t at = 0; at < bytes.size();) {
+            const ssize_t n = pread(descriptor_, bytes.data() + at, bytes.size() - at, static_cast<off_t>(at));
+            if (n <= 0) return false;
+            at += static_cast<std::size_t>(n);
+        }
+        return true;
+    }
+
+private:
+    int descriptor_;
+};
+
+std::string encode(const CrescenteEncodeRequest& request, std::string& bytes) {
     const auto output = OIIO::ImageOutput::create(request.format);
     if (!output) return "OpenImageIO cannot write " + std::string(request.format) + ": " + OIIO::geterror();
-    OIIO::Filesystem::IOVecOutput memory{bytes};
-    if (!output->set_ioproxy(&memory)) return "OpenImageIO cannot write " + std::string(request.format) + " into memory";
+    const MemoryFile memory;
+    if (!memory.open()) return std::string("no file in memory: ") + std::strerror(errno);
     const OIIO::ImageSpec spec = spec_of(request);
-    if (!output->open(request.format, spec) || !output->write_image(spec.format, request.pixels) || !output->close()) {
-        return output->geterror();
+    if (!output->open(memory.path(), spec) || !output->write_image(spec.format, request.pixels) || !output->close()) {
+        return "OpenImageIO: " + output->geterror();
     }
-    return {};
+    return memory.read(bytes) ? std::string{} : std::string("the file in memory cannot be read: ") + std::strerror(errno);
 }
 
 }  // namespace
@@ -46,10 +77,10 @@ extern "C" __attribute__((visibility("default"))) int crescente_oiio_encode(cons
             request->fail(request->user, "the module crescente_openimageio is of another version");
             return 0;
         }
-        std::vector<unsigned char> bytes;
+        std::string bytes;
         error = encode(*request, bytes);
         if (error.empty()) {
-            request->take(request->user, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            request->take(request->user, bytes.data(), bytes.size());
             return 1;
         }
     } catch (const std::exception& e) {
