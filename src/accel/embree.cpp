@@ -9,6 +9,7 @@
 
 #include "accel/accelerator.h"
 #include "accel/float_bounds.h"
+#include "accel/parts.h"
 #include "accel/triangle_clusters.h"
 
 namespace crescente::accel {
@@ -18,6 +19,17 @@ constexpr int packet = 16;
 constexpr double reach = 4;                    // farthest origin in scene radii, in each coordinate
 constexpr double float_unit = 1.0 / (1 << 24);  // half an ulp of float, relative
 constexpr double box_margin = 64 * float_unit;  // of the scene's radius
+constexpr double largest_coordinate = 1e16;     // what goes further, Embree does not see; its own limit is 1.8e18, in either space
+
+bool fits(const Bounds& box) { return box.bounded() && box.largest_coordinate() < largest_coordinate; }
+
+// Whether Embree may carry rays into the mesh's space, in float: not if the transform distorts so much that the error would exceed the
+// margin of the boxes, or if coordinates there would leave Embree's range.
+bool may_instance(const Instance& instance, double scene_radius) {
+    const auto norm = [](const Affine& m) { return std::sqrt(dot(m.x, m.x) + dot(m.y, m.y) + dot(m.z, m.z)); };
+    const double shrinks = norm(instance.to_local), grows = norm(instance.to_world);
+    return shrinks * grows < 100 && shrinks < 1e12 && grows < 1e12 && shrinks * scene_radius < largest_coordinate;
+}
 
 // A primitive of Embree's: either a cluster of a mesh or one part of any other shape.
 struct Primitive {
@@ -43,6 +55,18 @@ struct Release {
 };
 using Device = std::unique_ptr<RTCDeviceTy, Release>;
 using Scene = std::unique_ptr<RTCSceneTy, Release>;
+
+// Embree takes components below 1e-18 for +1e-18 in its reciprocals, but sorts coherent rays by their true signs: a small negative one
+// would be traversed backwards.
+float without_tiny(double component) { return std::abs(component) < 1e-17 ? 0.0f : static_cast<float>(component); }
+
+// Embree may try a primitive several times for the same ray: coherent packets are traversed once for each octant of their directions.
+void drop_repeated(std::vector<Crossing>& crossings, std::size_t first) {
+    const auto begin = crossings.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto order = [](const Crossing& a, const Crossing& b) { return a.ray != b.ray ? a.ray < b.ray : before(a.hit, b.hit); };
+    std::sort(begin, crossings.end(), order);
+    crossings.erase(std::unique(begin, crossings.end(), [&](const auto& a, const auto& b) { return !order(a, b) && !order(b, a); }), crossings.end());
+}
 
 class Embree;
 
@@ -110,12 +134,25 @@ Expected<void> Embree::build(int threads) {
     device_.reset(rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : ""));
     if (!device_) return failure(ErrorKind::resource, {"", "", "Embree cannot be started on this machine", ""});
 
-    std::vector<std::uint32_t> mesh_users_of(instances_.size());
+    std::vector<Bounds> boxes(instances_.size());
+    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+        if (!has_inverse(instances_[i])) continue;
+        const Bounds own = geometry::bounds(*instances_[i].shape);
+        boxes[i] = transform(instances_[i].to_world, own);
+        if (boxes[i].empty()) continue;
+        if (fits(boxes[i]) && fits(own)) {
+            box_.include(boxes[i]);
+        } else {
+            boxes[i] = {};
+            unbounded_.push_back(i);
+        }
+    }
     std::vector<std::pair<const geometry::Shape*, std::vector<std::uint32_t>>> shared;  // meshes and their instances, in order
     {
         std::vector<std::pair<const geometry::Shape*, std::uint32_t>> meshes;
         for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-            if (std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) meshes.emplace_back(instances_[i].shape, i);
+            if (boxes[i].empty() || !std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) continue;
+            meshes.emplace_back(instances_[i].shape, i);
         }
         std::stable_sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return std::less<>{}(a.first, b.first); });
         for (const auto& [shape, i] : meshes) {
@@ -124,16 +161,6 @@ Expected<void> Embree::build(int threads) {
         }
     }
 
-    std::vector<Bounds> boxes(instances_.size());
-    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-        boxes[i] = transform(instances_[i].to_world, geometry::bounds(*instances_[i].shape));
-        if (boxes[i].empty()) continue;
-        if (boxes[i].bounded()) {
-            box_.include(boxes[i]);
-        } else {
-            unbounded_.push_back(i);
-        }
-    }
     empty_ = box_.empty();
     if (empty_) return {};
     center_ = box_.center();
@@ -150,7 +177,7 @@ Expected<void> Embree::build(int threads) {
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     PrimitiveSet& flat = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
     for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-        if (!boxes[i].bounded() || std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) continue;
+        if (boxes[i].empty() || std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) continue;
         const std::uint32_t parts = geometry::parts(*instances_[i].shape);
         for (std::uint32_t part = 0; part < parts; ++part) {
             const Bounds box = transform(instances_[i].to_world, geometry::part_bounds(*instances_[i].shape, part));
@@ -169,26 +196,30 @@ Expected<void> Embree::build(int threads) {
         const auto& mesh = std::get<geometry::Mesh>(*shape);
         std::vector<TriangleCluster> clusters = cluster_triangles(mesh, device_.get());
         if (clusters.empty()) continue;
-        if (users.size() == 1) {
+        std::vector<std::uint32_t> instanced, flattened;  // flattened: each with boxes of its own; the clusters are shared
+        for (const std::uint32_t i : users) (users.size() > 1 && may_instance(instances_[i], radius_) ? instanced : flattened).push_back(i);
+        if (!flattened.empty()) {
             const auto base = static_cast<std::uint32_t>(flat.clusters.size());
-            for (std::uint32_t c = 0; c < clusters.size(); ++c) {
-                flat.primitives.push_back({users[0], base + c, true});
-                flat.bounds.push_back(float_bounds(bounds(clusters[c], instances_[users[0]].to_world), center_, margin));
+            for (const std::uint32_t i : flattened) {
+                for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+                    flat.primitives.push_back({i, base + c, true});
+                    flat.bounds.push_back(float_bounds(bounds(clusters[c], instances_[i].to_world), center_, margin));
+                }
             }
-            if (flat.clusters.empty()) {
+            if (flat.clusters.empty() && instanced.empty()) {
                 flat.clusters = std::move(clusters);
             } else {
                 flat.clusters.insert(flat.clusters.end(), clusters.begin(), clusters.end());
             }
-            continue;
         }
+        if (instanced.empty()) continue;
         // In the mesh's own space Embree's ray strays further: by the errors of the world ray and of the transform, both in
         // float, carried into that space.
         PrimitiveSet& set = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
         set.clusters = std::move(clusters);
         const Bounds own = mesh.bounds();
         double local_margin = 0;
-        for (const std::uint32_t i : users) {
+        for (const std::uint32_t i : instanced) {
             const Affine& m = instances_[i].to_local;
             const double stretch = std::max({length(m.x), length(m.y), length(m.z)}) * 1.7320508075688773;
             local_margin = std::max(local_margin, 4 * margin * stretch);
@@ -202,7 +233,7 @@ Expected<void> Embree::build(int threads) {
         rtcSetSceneFlags(prototype, RTC_SCENE_FLAG_ROBUST);
         attach(prototype, set);
         rtcCommitScene(prototype);
-        for (const std::uint32_t i : users) placed.push_back({prototype, own.center(), i});
+        for (const std::uint32_t i : instanced) placed.push_back({prototype, own.center(), i});
     }
     instance_of_geometry_.push_back(none);  // geometry 0: the flat set
     attach(scene_.get(), flat);
@@ -411,17 +442,20 @@ void Embree::trace_packet(Query& query, int count) const {
         const Ray& from = query.rays[lane];
         const double t_max = std::min(from.t_max, query.hits[lane].t);
         if (shadows && query.hits[lane].found()) continue;  // an unbounded shape is in the way already
+        // Empty ranges, and what Embree would abort on.
+        if (!(from.t_min < t_max) || !is_finite(from.origin) || !is_finite(from.direction)) continue;
         Vec3 origin = from.origin - center_;
         moved[lane] = 0;
         double start = from.t_min, end = t_max;
-        if (max_component(abs(origin)) > reach * radius_) {
+        if (max_component(abs(origin)) > reach * radius_ || from.t_min < 0) {
             double enter, leave;
             if (!clip(from, enter, leave)) continue;
             const double grown = enter - 2 * radius_;  // well before the box: the exact place does not matter
-            moved[lane] = grown > 0 ? round_down(grown) : 0.0f;
+            moved[lane] = grown > 0 || from.t_min < 0 ? round_down(grown) : 0.0f;
             origin = from.at(moved[lane]) - center_;
             start -= moved[lane], end -= moved[lane];
         }
+        if (max_component(abs(origin)) > largest_coordinate || max_component(abs(from.direction)) > largest_coordinate) continue;
         valid[lane] = -1;
         query.ox[lane] = from.origin.x, query.oy[lane] = from.origin.y, query.oz[lane] = from.origin.z;
         query.dx[lane] = from.direction.x, query.dy[lane] = from.direction.y, query.dz[lane] = from.direction.z;
@@ -429,9 +463,9 @@ void Embree::trace_packet(Query& query, int count) const {
         Access::of(ray.org_x, lane) = static_cast<float>(origin.x);
         Access::of(ray.org_y, lane) = static_cast<float>(origin.y);
         Access::of(ray.org_z, lane) = static_cast<float>(origin.z);
-        Access::of(ray.dir_x, lane) = static_cast<float>(from.direction.x);
-        Access::of(ray.dir_y, lane) = static_cast<float>(from.direction.y);
-        Access::of(ray.dir_z, lane) = static_cast<float>(from.direction.z);
+        Access::of(ray.dir_x, lane) = without_tiny(from.direction.x);
+        Access::of(ray.dir_y, lane) = without_tiny(from.direction.y);
+        Access::of(ray.dir_z, lane) = without_tiny(from.direction.z);
         Access::of(ray.tnear, lane) = static_cast<float>(std::max(0.0, start - margin));
         Access::of(ray.tfar, lane) = round_up(end + margin + 4 * box_margin * std::abs(end));
         Access::of(ray.time, lane) = 0;
@@ -465,7 +499,8 @@ template <bool shadows>
 void Embree::trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const {
     Query query;
     rtcInitIntersectContext(&query.context);
-    if (coherence == Coherence::coherent) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    // Not with instances: in their space without_tiny() does not hold.
+    if (coherence == Coherence::coherent && prototypes_.empty()) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query.accelerator = this;
     query.crossings = crossings;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -493,7 +528,9 @@ void Embree::trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<C
             if (step == 1) {
                 trace_packet<1, shadows, std::conditional_t<shadows, RTCRay, RTCRayHit>>(query, 1);
             } else {
+                const std::size_t first_crossing = shadows ? crossings->size() : 0;
                 trace_packet<packet, shadows, std::conditional_t<shadows, RTCRay16, RTCRayHit16>>(query, count);
+                if constexpr (shadows) drop_repeated(*crossings, first_crossing);
             }
         }
     }

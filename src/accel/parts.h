@@ -1,4 +1,4 @@
-// What linear and kay-kajiya share: the list of parts that can be hit at all, and a ray carried into the space of one instance after another.
+// What accelerators share: the list of parts that can be hit at all, and a ray carried into the space of one instance after another.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,18 @@ struct PartRef {
     std::uint32_t instance = 0, part = 0;
 };
 
+// An instance that its transform has flattened has no inverse, and cannot be hit.
+inline bool has_inverse(const Instance& instance) {
+    const Affine& m = instance.to_local;
+    return is_finite(m.x) && is_finite(m.y) && is_finite(m.z) && is_finite(m.origin);
+}
+
 // Calls visit(PartRef, Bounds in the shape's space) for each part that can be hit, in the order of identity. A part without
-// extent cannot, nor can an instance that its transform has flattened.
+// extent cannot.
 template <class Visit>
 void for_each_part(std::span<const Instance> instances, Visit&& visit) {
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
-        const Affine& inverse = instances[i].to_local;
-        if (!is_finite(inverse.x) || !is_finite(inverse.y) || !is_finite(inverse.z) || !is_finite(inverse.origin)) continue;
+        if (!has_inverse(instances[i])) continue;
         const geometry::Shape& shape = *instances[i].shape;
         const std::uint32_t count = geometry::parts(shape);
         for (std::uint32_t part = 0; part < count; ++part) {

@@ -34,15 +34,18 @@ TriangleCluster make_cluster(const geometry::Mesh& mesh, const RTCBuildPrimitive
 
 std::vector<TriangleCluster> cluster_triangles(const geometry::Mesh& mesh, RTCDevice device) {
     std::vector<TriangleCluster> clusters;
-    const std::uint32_t count = mesh.parts();
+    const Vec3 center = mesh.bounds().center();
+    std::vector<RTCBuildPrimitive> primitives;
+    primitives.reserve(mesh.parts());
+    for (std::uint32_t i = 0; i < mesh.parts(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        if (!is_finite(mesh.positions[a]) || !is_finite(mesh.positions[b]) || !is_finite(mesh.positions[c])) continue;  // never hit
+        const RTCBounds box = float_bounds(mesh.part_bounds(i), center, 0);
+        primitives.push_back({box.lower_x, box.lower_y, box.lower_z, 0, box.upper_x, box.upper_y, box.upper_z, i});
+    }
+    const std::size_t count = primitives.size();
     if (count == 0) return clusters;
     clusters.reserve(count / (cluster_size - 2) + 1);
-    const Vec3 center = mesh.bounds().center();
-    std::vector<RTCBuildPrimitive> primitives(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const RTCBounds box = float_bounds(mesh.part_bounds(i), center, 0);
-        primitives[i] = {box.lower_x, box.lower_y, box.lower_z, 0, box.upper_x, box.upper_y, box.upper_z, i};
-    }
 
     Leaves leaves{mesh, clusters, {}};
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
