@@ -51,16 +51,16 @@ Expected<PictureFormat> format_of(const std::filesystem::path& file) {
     return failure(ErrorKind::usage, {file.string(), {}, reason, spelling_hint(extension, known)});
 }
 
-// The first three channels of the first layer, which is what display formats show.
-std::vector<float> color_of(const Image& image) {
+// The first three channels of the first layer, which is what display formats show: the layer's own values, or `made` from them.
+std::span<const float> color_of(const Image& image, std::vector<float>& made) {
     const Layer& layer = image.layers.front();
     const std::size_t channels = layer.channels.size();
     if (channels == 3) return layer.values;
-    std::vector<float> rgb(std::size_t(image.width) * std::size_t(image.height) * 3);
-    for (std::size_t pixel = 0; pixel < rgb.size() / 3; ++pixel) {
-        for (std::size_t c = 0; c < 3; ++c) rgb[3 * pixel + c] = layer.values[pixel * channels + std::min(c, channels - 1)];
+    made.resize(std::size_t(image.width) * std::size_t(image.height) * 3);
+    for (std::size_t pixel = 0; pixel < made.size() / 3; ++pixel) {
+        for (std::size_t c = 0; c < 3; ++c) made[3 * pixel + c] = layer.values[pixel * channels + std::min(c, channels - 1)];
     }
-    return rgb;
+    return made;
 }
 
 Expected<void> check(const Image& image) {
@@ -122,7 +122,8 @@ Expected<std::string> encode_by_module(const Image& image, const PictureFormat& 
 
 template <class Sample>
 Expected<std::string> encode_display(const Image& image, const PictureFormat& format, const ImageOptions& options) {
-    const std::vector<float> color = color_of(image);
+    std::vector<float> made;
+    const std::span<const float> color = color_of(image, made);
     std::vector<Sample> samples(color.size());
     scene::display_image(color, options.tonemap, options.exposure, std::span<Sample>(samples));
     if (!format.encoder) return encode_png(image.width, image.height, std::span<const Sample>(samples), options.metadata);
@@ -134,7 +135,10 @@ Expected<std::string> encode(const Image& image, const PictureFormat& format, co
         const Interleaved all = interleave(image);
         return encode_by_module(image, format, options, all.values.data(), 32, all.names);
     }
-    if (format.linear) return encode_by_module(image, format, options, color_of(image).data(), 32, {"R", "G", "B"});
+    if (format.linear) {
+        std::vector<float> made;
+        return encode_by_module(image, format, options, color_of(image, made).data(), 32, {"R", "G", "B"});
+    }
     if (options.bits == 16 && format.deep) return encode_display<std::uint16_t>(image, format, options);
     return encode_display<std::uint8_t>(image, format, options);
 }

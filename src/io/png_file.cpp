@@ -76,8 +76,8 @@ bool encode(Sink& sink, int width, int height, int bits, const void* pixels, con
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
-    // Rendered pictures are smooth: differences to the row above, in runs. Measured on 1024 x 1024: 17 ms and 0.37 MB; libpng's
-    // defaults take 47 ms and more for 0.35 MB, no filter 12 ms but fails on gradients along a row.
+    // Rendered pictures are smooth: differences to the row above, in runs. Measured on 1024 x 1024: 17 ms and 0.37 MB; all
+    // filters at level 3 47 ms for 0.35 MB, no filter 12 ms but fails on gradients along a row.
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_set_compression_level(png, 1);
     png_set_compression_strategy(png, Z_RLE);

@@ -80,19 +80,20 @@ public:
     }
 
     int operator()(float x) const {
-        if (!(x > 0)) return 0;
-        if (x >= 1) return (1 << bits) - 1;
-        const std::uint32_t b = std::bit_cast<std::uint32_t>(x);
-        int code = b < lowest ? 0 : start_[(b - lowest) >> shift];
-        while (x >= first_[code + 1]) ++code;
+        x = std::clamp(x, 0.0f, 1.0f);
+        const std::uint32_t b = std::max(std::bit_cast<std::uint32_t>(x), lowest);
+        int code = start_[(b - lowest) >> shift];
+        if constexpr (bits == 8) code += x >= first_[code + 1];  // an interval holds at most one step: no branch
+        else
+            while (x >= first_[code + 1]) ++code;
         return code;
     }
 
 private:
     using Code = std::conditional_t<bits == 8, std::uint8_t, std::uint16_t>;
     static constexpr int shift = bits == 8 ? 16 : 8;
-    // Where the table begins: below it lies at most one step for 8 bits, and few for 16.
-    static constexpr std::uint32_t lowest = std::bit_cast<std::uint32_t>(bits == 8 ? 0x1p-13f : 0x1p-20f);
+    // Where the table begins: everything below has code 0.
+    static constexpr std::uint32_t lowest = std::bit_cast<std::uint32_t>(bits == 8 ? 0x1p-13f : 0x1p-21f);
     std::vector<float> first_;  // by code: the smallest float that has it
     std::vector<Code> start_;   // by leading bits: the code of the interval's start
 };
