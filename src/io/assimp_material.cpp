@@ -49,7 +49,7 @@ std::optional<scene::Material> physical_material(const aiMaterial& material) {
 
     const Rgb diffuse = color(material, AI_MATKEY_COLOR_DIFFUSE).value_or(Rgb{0.6f, 0.6f, 0.6f});
     const bool is_grey = diffuse.r == diffuse.g && diffuse.g == diffuse.b;
-    if (result.name == AI_DEFAULT_MATERIAL_NAME && is_grey) return std::nullopt;
+    if ((result.name.empty() || result.name == AI_DEFAULT_MATERIAL_NAME) && is_grey && texture_count(material) == 0) return std::nullopt;
     m.base_color = at_most_one(color(material, AI_MATKEY_BASE_COLOR).value_or(diffuse));
 
     const auto metallic = number(material, AI_MATKEY_METALLIC_FACTOR), roughness = number(material, AI_MATKEY_ROUGHNESS_FACTOR);

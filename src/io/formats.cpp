@@ -8,7 +8,9 @@
 #include "io/gltf.h"
 #include "io/mesh_file.h"
 #include "io/nff.h"
+#include "io/ply.h"
 #include "io/scene_file.h"
+#include "io/stl.h"
 
 namespace crescente::io {
 
@@ -22,8 +24,8 @@ std::span<const Format> formats() {
         {"glTF 2.0", {".gltf", ".glb"},
          "Meshes, hierarchy, instances, cameras, punctual lights, physical materials by their factors. Metres, y up.", read_gltf_file},
         {"Wavefront OBJ", {".obj"}, "Polygons with MTL materials. No unit (metres), y up.", read_mesh_file},
-        {"PLY", {".ply"}, "Polygons. No unit (metres), z up.", read_mesh_file},
-        {"STL", {".stl"}, "Triangles. No unit (millimetres, by custom), z up. Edges sharper than 40 degrees stay sharp.", read_mesh_file},
+        {"PLY", {".ply"}, "Polygons. No unit (metres), z up.", read_ply_file},
+        {"STL", {".stl"}, "Triangles. No unit (millimetres, by custom), z up. Edges sharper than 40 degrees stay sharp.", read_stl_file},
         {"3MF", {".3mf"}, "Triangles of additive manufacturing. Millimetres, z up.", read_mesh_file},
         {"AMF", {".amf"}, "Triangles of additive manufacturing. Millimetres, z up.", read_mesh_file},
         {"OFF", {".off"}, "Polygons. No unit (metres), y up.", read_mesh_file},

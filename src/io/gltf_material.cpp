@@ -80,7 +80,7 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
     if (distance > 0) {
         const Vector color = document_.numbers<3>(volume, place, "attenuationColor", {1, 1, 1});
         Vector absorbed;
-        for (std::size_t c = 0; c < 3; ++c) absorbed[c] = -std::log(std::clamp(color[c], 1e-6, 1.0)) / distance;
+        for (std::size_t c = 0; c < 3; ++c) absorbed[c] = std::log(1 / std::clamp(color[c], 1e-6, 1.0)) / distance;
         m.attenuation = rgb(absorbed);
     }
     m.double_sided = document_.boolean(object, place, "doubleSided", false);

@@ -40,8 +40,7 @@ struct Convention {
 const Convention& convention_of(std::string_view extension) {
     static const scene::Unit metre{"m", 1}, millimetre{"mm", 0.001}, centimetre{"cm", 0.01};
     static const Convention conventions[] = {
-        {".stl", millimetre, true},  {".3mf", millimetre, true}, {".amf", millimetre, true}, {".dxf", millimetre, true},
-        {".ply", metre, true},       {".fbx", centimetre, false},
+        {".3mf", millimetre, true}, {".amf", millimetre, true}, {".dxf", millimetre, true}, {".fbx", centimetre, false},
     };
     static const Convention other{"", metre, false};
     for (const Convention& convention : conventions) {
@@ -155,7 +154,7 @@ private:
         geometry::Mesh mesh;
         mesh.positions.reserve(from.mNumVertices);
         for (unsigned i = 0; i < from.mNumVertices; ++i) mesh.positions.push_back(vector(from.mVertices[i]));
-        const bool own_normals = from.mNormals && extension_ != ".stl";  // those of STL are the facets'
+        const bool own_normals = from.mNormals != nullptr;
         mesh.triangles.reserve(from.mNumFaces);
         for (unsigned i = 0; i < from.mNumFaces; ++i) {
             const aiFace& face = from.mFaces[i];

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/spelling.h"
-#include "io/nff_scanner.h"
+#include "io/text_scanner.h"
 #include "io/polygon_collector.h"
 #include "io/text_file.h"
 
@@ -75,8 +75,8 @@ private:
     bool numbers(std::span<double> values, const char* what) {
         for (double& value : values) {
             const auto result = in_.number(value);
-            if (result == NffScanner::Number::good) continue;
-            if (result == NffScanner::Number::missing) {
+            if (result == TextScanner::Number::good) continue;
+            if (result == TextScanner::Number::missing) {
                 problem(entity_line_, std::string("the file ends before the last value of ") + what);
                 return false;
             }
@@ -300,7 +300,7 @@ private:
         scene().settings.depth = 4;  // the format's databases prescribe trees of depth 5, the camera ray included
     }
 
-    NffScanner in_;
+    TextScanner in_;
     const std::string& file_;
     Loaded loaded_;
     Problems problems_;

@@ -14,9 +14,8 @@ Vec3 vector_area(std::span<const Vec3> ring) {
     return sum;
 }
 
-// Whether a fan from the first point covers the ring seen along its normal: every corner turns left, up to the rounding of printed
-// numbers, and from the first point the others are swept once.
-bool is_convex(std::span<const Vec3> ring, Vec3 area) {
+// Every corner turns left, and from the first point the others are swept once.
+bool is_convex_about(std::span<const Vec3> ring, Vec3 area) {
     const std::size_t n = ring.size();
     if (n == 3) return true;
     const double tolerance = -1e-6 * dot(area, area);
@@ -26,7 +25,9 @@ bool is_convex(std::span<const Vec3> ring, Vec3 area) {
         if (dot(cross(b - a, c - b), area) < tolerance) return false;
         if (i == 0 || i + 1 == n) continue;
         const Vec3 p = a - ring[0], q = b - ring[0];
-        swept += std::atan2(dot(cross(p, q), area) / length(area), dot(p, q));
+        const double turn = dot(cross(p, q), area);
+        if (turn < tolerance) return false;  // a star
+        swept += std::atan2(turn / length(area), dot(p, q));
     }
     return swept < math::pi + 1e-6;
 }
@@ -63,13 +64,15 @@ void add_corner_normal(geometry::Mesh& mesh, Vec3 normal, Vec3 face) {
 
 }  // namespace
 
+bool is_convex(std::span<const Vec3> ring) { return is_convex_about(ring, vector_area(ring)); }
+
 void PolygonCollector::add(std::span<const Vec3> points, std::span<const Vec3> normals) {
     const Vec3 area = vector_area(points);
     if (!has_area(area)) {
         ++without_area;
         return;
     }
-    if (!is_convex(points, area)) {
+    if (!is_convex_about(points, area)) {
         const Vec3 normal = normalize(area);
         if (!is_planar(points, normal)) ++not_planar;
         if (!normals.empty()) ++normals_lost;

@@ -12,6 +12,9 @@
 
 namespace crescente::io {
 
+// Whether a fan of triangles from the first point covers the ring, seen along its mean normal; up to the rounding of printed numbers.
+bool is_convex(std::span<const geometry::Vec3> ring);
+
 class PolygonCollector {
 public:
     // A ring of at least three points. `normals`: one for each point, or empty for a flat face; of any length, zero takes the face's.

@@ -1,4 +1,5 @@
-// Words and numbers of an NFF file, with line numbers. Made for speed: a scene is read in about the time that its bytes take.
+// Words and numbers of a text file, with line numbers; '#' begins a comment. Made for speed: a model is read in about the time that its
+// bytes take.
 #pragma once
 
 #include <charconv>
@@ -9,11 +10,12 @@
 
 namespace crescente::io {
 
-class NffScanner {
+class TextScanner {
 public:
-    explicit NffScanner(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
+    explicit TextScanner(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
 
     std::size_t line() const { return line_; }
+    const char* at() const { return at_; }
     std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
 
     // Goes to the next word, over line ends and comments; false at the end of the file.
@@ -63,8 +65,18 @@ public:
     }
 
     std::string_view peek_word() const {
-        NffScanner ahead = *this;
+        TextScanner ahead = *this;
         return ahead.to_word() ? ahead.word() : std::string_view{};
+    }
+
+    // The rest of this line, without its end; goes to the next line.
+    std::string_view rest_of_line() {
+        const char* first = at_;
+        to_line_end();
+        const char* last = at_;
+        if (at_ < end_) ++at_, ++line_;
+        while (last > first && is_blank(last[-1])) --last;
+        return {first, static_cast<std::size_t>(last - first)};
     }
 
     // Over the rest of this line and all lines that do not begin with a letter: to where the next entity can begin.
