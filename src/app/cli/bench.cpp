@@ -75,18 +75,17 @@ std::uint64_t count_parts(const scene::Scene& scene) {
 
 // Brute force tries every part for every ray: where that would take minutes it gets a smaller picture, or none.
 void restrain_linear(std::uint64_t parts, Measured& measured) {
-    constexpr double affordable = 4e8;  // parts times pixels: some ten seconds
-    constexpr double smallest_picture = 64 * 64;
+    constexpr std::uint64_t most_parts = 20'000;
+    constexpr double affordable = 3e7;  // parts times pixels: some ten seconds at dozens of rays a pixel
     auto& settings = measured.settings;
-    const double pixels = static_cast<double>(settings.width) * settings.height;
-    const double cost = static_cast<double>(parts) * pixels;
-    if (cost <= affordable) return;
-    const double shrink = std::sqrt(affordable / cost);
-    if (pixels * shrink * shrink < smallest_picture) {
+    if (parts > most_parts) {
         measured.skipped = true;
         measured.note = "skipped: " + std::to_string(parts) + " parts are too many for brute force";
         return;
     }
+    const double cost = static_cast<double>(parts) * settings.width * settings.height;
+    if (cost <= affordable) return;
+    const double shrink = std::sqrt(affordable / cost);
     settings.width = std::max(1, static_cast<int>(settings.width * shrink));
     settings.height = std::max(1, static_cast<int>(settings.height * shrink));
     measured.note = "at " + std::to_string(settings.width) + "x" + std::to_string(settings.height) + ", ratio of the time per ray";

@@ -11,8 +11,10 @@ std::atomic<bool> stop_asked = false;
 std::atomic<bool> stop_insisted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "only such atomics may be touched in a signal handler");
 
-void on_signal(int) {
-    if (stop_asked.exchange(true)) stop_insisted = true;
+void on_signal(int signal) {
+    if (!stop_asked.exchange(true)) return;
+    stop_insisted = true;
+    std::signal(signal, SIG_DFL);  // a third one ends the program whatever it is doing
 }
 
 constexpr int signals[] = {SIGINT, SIGTERM};

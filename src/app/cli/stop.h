@@ -15,7 +15,7 @@ public:
 
     // Set at the first signal: finish with the picture so far.
     const std::atomic<bool>& asked() const;
-    // Set at the second: give up at once.
+    // Set at the second: give up at once. A third is not caught.
     const std::atomic<bool>& insisted() const;
 };
 
