@@ -51,7 +51,7 @@ LONG_FILES: dict[str, str] = {}
 
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b(?!\w)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
-DISABLED = re.compile(r"\bTEST(?:_F|_P)?\s*\(\s*(\w+)\s*,\s*(DISABLED_\w+)|\bGTEST_SKIP\(\)\s*(<<\s*[^;]*)?;", re.S)
+DISABLED = re.compile(r"\bTEST(?:_F|_P)?\s*\(\s*(\w+)\s*,\s*(DISABLED_\w+)|\bGTEST_SKIP\(\)[ ]*(<<[^;\n]*(?:\n\s*<<[^;\n]*)*)?")
 
 
 def sources(*folders):

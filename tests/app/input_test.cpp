@@ -76,7 +76,7 @@ TEST_F(Input, NotANumberInStl) {
 }
 
 TEST_F(Input, EmptyScene) {
-    refused(write("a.json", "{}"), "empty");
+    refused(write("a.json", "{}"), "nothing in the scene can be seen");
     refused(write("b.nff", nff_head), "b.nff");
 }
 
@@ -97,7 +97,10 @@ TEST_F(Input, SizesOfAFile) {
 
 TEST_F(Input, FilesThatReferToEachOther) {
     write("b.json", R"({"objects": [{"file": "a.json"}]})");
-    refused(write("a.json", R"({"objects": [{"file": "b.json"}]})"), "b.json");
+    const Outcome outcome = crescente({"render", write("a.json", R"({"objects": [{"file": "b.json"}]})"), "-o", path("a.png")});
+    EXPECT_EQ(outcome.code, input);
+    EXPECT_TRUE(contains(outcome.err, "a.json -> b.json -> a.json"));
+    EXPECT_FALSE(fs::exists(path("a.png")));
 }
 
 TEST_F(Input, ReferenceToAMissingFile) { refused(write("a.json", R"({"objects": [{"file": "none.glb"}]})"), "none.glb"); }
@@ -109,7 +112,7 @@ TEST_F(Input, InfoFailsAlike) {
 }
 
 TEST_F(Input, NotEnoughMemoryIsToldAsSuch) {
-    const Outcome outcome = crescente({"render", (scenes / "balls4.nff").string(), "-o", path("a.png"), "--size", "60000x60000", "-q"},
+    const Outcome outcome = crescente({"render", (scenes / "balls4.nff").string(), "-o", path("a.png"), "--size", "40000x40000", "-q"},
                                       {.memory = rlim_t(4) << 30});
     EXPECT_EQ(outcome.code, 6) << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "error: "));

@@ -146,7 +146,7 @@ TEST_F(Render, ThreadsAndAcceleratorsGiveThePictureToTheBit) {
     const auto reference = render("a.png", {"--threads", "1"});
     EXPECT_EQ(render("b.png", {"--threads", "3"}), reference);
     EXPECT_EQ(render("c.png", {"--accel", "kay-kajiya"}), reference);
-    EXPECT_EQ(render("d.png", {"--memory", "64K"}), reference);
+    EXPECT_EQ(render("d.png", {"--memory", "8M"}), reference);
 }
 
 TEST_F(Render, TimeLimitGivesAWholePicture) {

@@ -76,6 +76,13 @@ TEST_F(Usage, ZeroAndAbsurdSizes) {
     EXPECT_TRUE(files().empty());
 }
 
+TEST_F(Usage, MorePixelsThanCanBeHeld) {
+    const Outcome outcome = crescente({"render", (scenes / "balls4.nff").string(), "-o", path("a.png"), "--size", "65536x65536"});
+    EXPECT_EQ(outcome.code, usage);
+    EXPECT_TRUE(contains(outcome.err, "65536 x 65536"));
+    EXPECT_TRUE(files().empty());
+}
+
 TEST_F(Usage, OverridesAreChecked) {
     const Outcome outcome = crescente({"render", (scenes / "balls4.nff").string(), "-o", path("a.png"), "--set", "settings.dpeth=3", "--set",
                                        "settings.depth=900"});

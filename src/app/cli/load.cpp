@@ -1,5 +1,7 @@
 #include "app/cli/load.h"
 
+#include <algorithm>
+
 #include "io/overrides.h"
 #include "scene/studio.h"
 #include "scene/validate.h"
@@ -28,6 +30,9 @@ Expected<void> apply_overrides(const std::vector<std::string>& overrides, scene:
     if (!wrong.problems.empty()) return tl::unexpected<Error>(std::move(wrong));
     return {};
 }
+
+// Each option is in range by itself: what is wrong with the settings as a whole (a picture of too many pixels) comes of their combination.
+bool concerns_settings_together(const Problem& problem) { return problem.place == "/settings"; }
 
 // Camera, lights and ground for what has none.
 Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
@@ -59,7 +64,8 @@ Expected<io::Loaded> load(const SceneRequest& request) {
     if (const auto applied = apply_overrides(request.overrides, scene); !applied) return tl::unexpected<Error>(applied.error());
 
     if (auto problems = scene::validate(scene, request.file); !problems.empty()) {
-        return tl::unexpected<Error>({ErrorKind::input, std::move(problems)});
+        const bool from_options = !request.settings.empty() && std::all_of(problems.begin(), problems.end(), concerns_settings_together);
+        return tl::unexpected<Error>({from_options ? ErrorKind::usage : ErrorKind::input, std::move(problems)});
     }
     if (const auto furnished = furnish(request, scene); !furnished) return tl::unexpected<Error>(furnished.error());
     return loaded;
