@@ -1,6 +1,9 @@
 #include "io/gltf.h"
 
-#include <cstring>
+#if __has_include(<draco/compression/encode.h>)
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
+#endif
 
 #include "io/gltf_draco.h"
 #include "reader_check.h"
@@ -338,6 +341,65 @@ TEST(Gltf, DracoDataThatLieAreRefused) {
     EXPECT_FALSE(decode_draco(bytes.substr(0, 5), 0, -1));
     EXPECT_FALSE(decode_draco("", 0, -1));
 }
+
+#if __has_include(<draco/compression/encode.h>)
+TEST(Gltf, DracoIsDecoded) {
+    if (!can_decode_draco()) GTEST_SKIP() << "this build is without Draco";
+    constexpr int side = 10;  // a wavy sheet of 2 x 10 x 10 triangles
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(2 * side * side);
+    const int positions = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int normals = builder.AddAttribute(draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32);
+    const auto corner = [](int i, int j) { return std::array<float, 3>{float(i), float(j), float((i + j) % 2) * 0.5f}; };
+    const std::array<float, 3> up{0, 0, 1};
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            const std::array<float, 3> a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
+            const draco::FaceIndex face(static_cast<std::uint32_t>(2 * (i * side + j)));
+            builder.SetAttributeValuesForFace(positions, face, a.data(), b.data(), c.data());
+            builder.SetAttributeValuesForFace(positions, face + 1, a.data(), c.data(), d.data());
+            builder.SetAttributeValuesForFace(normals, face, up.data(), up.data(), up.data());
+            builder.SetAttributeValuesForFace(normals, face + 1, up.data(), up.data(), up.data());
+        }
+    }
+    const auto sheet = builder.Finalize();
+    ASSERT_TRUE(sheet);
+    draco::EncoderBuffer encoded;
+    draco::Encoder encoder;
+    encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 16);
+    ASSERT_TRUE(encoder.EncodeMeshToBuffer(*sheet, &encoded).ok());
+
+    // As exporters write it: the accessors tell counts and types and have no buffer views.
+    Made made;
+    made.bytes.assign(encoded.data(), encoded.size());
+    made.views = R"({"buffer":0,"byteLength":)" + std::to_string(encoded.size()) + "}";
+    made.accessors = R"({"componentType":5126,"type":"VEC3","count":121},{"componentType":5126,"type":"VEC3","count":121},)"
+                     R"({"componentType":5125,"type":"SCALAR","count":600})";
+    const auto id = [&](int attribute) { return std::to_string(sheet->attribute(attribute)->unique_id()); };
+    const std::string rest =
+        R"("extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"],)" +
+        mesh_with(R"({"attributes":{"POSITION":0,"NORMAL":1},"indices":2,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":)" +
+                  id(positions) + R"(,"NORMAL":)" + id(normals) + "}}}}");
+    const auto loaded = read(made.glb(rest));
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(triangles_in(loaded->scene), 200u);
+    const auto& mesh = std::get<geometry::Mesh>(loaded->scene.shapes.at(0).shape);
+    EXPECT_EQ(mesh.positions.size(), 121u);
+    EXPECT_NEAR(mesh.bounds().upper.x, side, 1e-3);
+    EXPECT_NEAR(mesh.bounds().upper.z, 0.5, 1e-3);
+    for (const auto& normal : mesh.normals) EXPECT_NEAR(normal[2], 1, 1e-3);
+
+    // Damaged data give an error or another mesh.
+    for (std::size_t at = 0; at < encoded.size(); ++at) {
+        Made damaged = made;
+        damaged.bytes[at] = static_cast<char>(damaged.bytes[at] ^ 0x55);
+        const auto result = read(damaged.glb(rest));
+        if (!result) {
+            EXPECT_EQ(result.error().kind, ErrorKind::input);
+        }
+    }
+}
+#endif
 
 TEST(Gltf, AFileCutAnywhereIsAnError) {
     REQUIRE_ASSET("gltf/Lights.glb");
