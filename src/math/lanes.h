@@ -19,7 +19,7 @@ inline double fused_multiply_add(double a, double b, double c) { return std::fma
 
 inline Lanes square_root(Lanes x) {
 #if defined(__AVX512F__)
-    return reinterpret_cast<Lanes>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(x)));
+    return reinterpret_cast<Lanes>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(x)));
 #else
     Lanes result{};
     for (int i = 0; i < lane_count; ++i) result[i] = std::sqrt(x[i]);

@@ -1,0 +1,156 @@
+#include "scene/studio.h"
+
+#include <functional>
+
+namespace crescente::scene {
+namespace {
+
+using math::Affine;
+using math::Bounds;
+using math::Vec3;
+using math::gray;
+
+// Calls visit with points in world space that enclose all that is visible and bounded: vertices of meshes, corners of other shapes' boxes.
+void for_each_outline_point(const Scene& scene, const std::function<void(Vec3)>& visit) {
+    for_each_appearance(scene, [&](std::uint32_t node, const Affine& to_world, const std::vector<MaterialId>&) {
+        const geometry::Shape& shape = scene.shapes[scene.nodes[node].shape.value].shape;
+        if (const auto* mesh = std::get_if<geometry::Mesh>(&shape)) {
+            for (const Vec3 p : mesh->positions) visit(to_world.point(p));
+            return;
+        }
+        const Bounds box = geometry::bounds(shape);
+        for (int i = 0; i < 8 && box.bounded(); ++i) visit(to_world.point(box.corner(i)));
+    });
+}
+
+Vec3 direction_of(double azimuth_degrees, double elevation_degrees) {
+    const double a = azimuth_degrees * math::pi / 180, e = elevation_degrees * math::pi / 180;
+    return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
+}
+
+// Moves the camera along its view direction, and sideways, until the scene fills the frame but for a margin.
+void frame(const Scene& scene, Camera& camera, Vec3 towards_camera, double aspect, double radius) {
+    constexpr double margin = 0.86;  // share of the frame that the model takes
+    const Vec3 forward = -towards_camera;
+    const Vec3 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
+    const double tan_y = std::tan(camera.field_of_view / 2) * margin, tan_x = tan_y * aspect;
+    for (int pass = 0; pass < 4; ++pass) {
+        double distance = 0.05 * radius;
+        for_each_outline_point(scene, [&](Vec3 p) {
+            const Vec3 d = p - camera.target;
+            distance = std::max({distance, std::abs(dot(d, right)) / tan_x - dot(d, forward), std::abs(dot(d, up)) / tan_y - dot(d, forward)});
+        });
+        camera.position = camera.target + towards_camera * distance;
+        double left = 1e300, rightmost = -1e300, low = 1e300, high = -1e300;
+        for_each_outline_point(scene, [&](Vec3 p) {
+            const Vec3 d = p - camera.position;
+            const double depth = std::max(dot(d, forward), 1e-9 * radius);
+            left = std::min(left, dot(d, right) / depth), rightmost = std::max(rightmost, dot(d, right) / depth);
+            low = std::min(low, dot(d, up) / depth), high = std::max(high, dot(d, up) / depth);
+        });
+        const Vec3 shift = (right * (left + rightmost) + up * (low + high)) * (0.5 * distance);
+        camera.target += shift;
+        camera.position += shift;
+    }
+}
+
+// A soft key light: points spread evenly over a disk (Vogel 1979, sunflower) that faces the model. Together they make
+// penumbras until the level of area lights is there.
+void add_soft_box(Scene& scene, const std::string& name, Vec3 center, Vec3 from, double distance, double size, int points, double irradiance,
+                  math::Rgb color) {
+    const Vec3 u = math::perpendicular(from), v = cross(from, u);
+    for (int i = 0; i < points; ++i) {
+        const double r = size * std::sqrt((i + 0.5) / points), a = i * 2.399963229728653;
+        Light light;
+        light.name = name + " " + std::to_string(i + 1);
+        light.position = center + from * distance + u * (r * std::cos(a)) + v * (r * std::sin(a));
+        light.direction = -from;
+        light.color = color;
+        light.intensity = irradiance * distance * distance / points;
+        scene.lights.push_back(light);
+    }
+}
+
+// Light from all of the upper half: directions spread evenly (Fibonacci) with shadows, so that contacts and hollows darken.
+void add_dome(Scene& scene, int directions, double irradiance) {
+    for (int i = 0; i < directions; ++i) {
+        const double y = 0.08 + 0.9 * (i + 0.5) / directions, a = i * 2.399963229728653, s = std::sqrt(1 - y * y);
+        Light light;
+        light.name = "dome " + std::to_string(i + 1);
+        light.kind = LightKind::directional;
+        light.direction = {-s * std::cos(a), -y, -s * std::sin(a)};
+        light.intensity = irradiance / directions * 2;  // the mean cosine on a level surface is about a half
+        light.highlights = false;
+        scene.lights.push_back(light);
+    }
+}
+
+void add_ground(Scene& scene, const Bounds& box, double radius) {
+    Material material{"studio ground", PhysicalMaterial{}};
+    auto& model = std::get<PhysicalMaterial>(material.model);
+    model.base_color = gray(0.72f);
+    model.roughness = 0.3;
+    model.ior = 1.4;
+    const MaterialId id{static_cast<std::uint32_t>(scene.materials.size())};
+    scene.materials.push_back(std::move(material));
+    geometry::Disk disk;
+    disk.radius = 40 * radius;
+    const ShapeId shape{static_cast<std::uint32_t>(scene.shapes.size())};
+    scene.shapes.push_back({"studio ground", disk});
+    Node node;
+    node.name = "studio ground";
+    // A hair below the model, so that the two never share a surface.
+    node.transform = Affine::translation({box.center().x, box.lower.y - 1e-4 * radius, box.center().z});
+    node.shape = shape;
+    node.materials = {id};
+    scene.roots.push_back({static_cast<std::uint32_t>(scene.nodes.size())});
+    scene.nodes.push_back(std::move(node));
+}
+
+// Whether the scene brings light of its own.
+bool shines(const Scene& scene) {
+    const auto emits = [](const Material& material) {
+        if (const auto* m = std::get_if<PhysicalMaterial>(&material.model)) return !is_black(m->emissive);
+        const auto& m = std::get<ClassicMaterial>(material.model);
+        return !is_black(m.emission) || !is_black(m.ambient);
+    };
+    return !scene.lights.empty() || (scene.environment && scene.environment->strength > 0) ||
+           std::any_of(scene.materials.begin(), scene.materials.end(), emits);
+}
+
+}  // namespace
+
+void add_studio(Scene& scene) {
+    const Bounds box = bounds(scene);
+    const Vec3 center = box.bounded() ? box.center() : Vec3{};
+    const double radius = box.bounded() ? std::max(length(box.diagonal()) / 2, 1e-9) : 1.0;
+    const bool own_camera = scene.camera.has_value();
+    const Vec3 towards_camera = own_camera ? normalize(scene.camera->position - scene.camera->target) : direction_of(32, 22);
+    if (!own_camera) {
+        Camera camera;
+        camera.field_of_view = 28 * math::pi / 180;
+        camera.target = center;
+        frame(scene, camera, towards_camera, double(scene.settings.width) * camera.pixel_aspect / scene.settings.height, radius);
+        scene.camera = camera;
+    }
+    if (shines(scene)) return;
+
+    const double azimuth = std::atan2(towards_camera.x, towards_camera.z) * 180 / math::pi;
+    add_soft_box(scene, "key", center, direction_of(azimuth - 48, 48), 5 * radius, 1.1 * radius, 16, 2.1, {1.0f, 0.97f, 0.93f});
+    add_soft_box(scene, "rim", center, direction_of(azimuth + 150, 38), 5 * radius, 0.8 * radius, 5, 1.1, {0.93f, 0.96f, 1.0f});
+    add_dome(scene, 20, 1.35);
+    if (!scene.environment) {
+        Environment studio;
+        studio.zenith = gray(1.25f);
+        studio.horizon = gray(0.62f);
+        studio.nadir = gray(0.22f);
+        studio.strength = 0.18;
+        studio.backdrop = true;
+        studio.backdrop_bottom = gray(0.55f);
+        studio.backdrop_top = gray(0.75f);
+        scene.environment = studio;
+    }
+    if (!own_camera && box.bounded()) add_ground(scene, box, radius);
+}
+
+}  // namespace crescente::scene
