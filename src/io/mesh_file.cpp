@@ -16,6 +16,8 @@
 #include "geometry/mesh_repair.h"
 #include "io/assimp_files.h"
 #include "io/assimp_material.h"
+#include "io/isolated.h"
+#include "io/packed_scene.h"
 #endif
 
 namespace crescente::io {
@@ -318,9 +320,7 @@ private:
     std::size_t degenerate_ = 0, not_triangles_ = 0, vertex_colors_ = 0, textures_ = 0;
 };
 
-}  // namespace
-
-Expected<Loaded> read_mesh(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder) {
+Expected<Loaded> read_by_assimp(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder) {
     const auto wrong = [&](std::string reason) { return failure(ErrorKind::input, {file_name, "", std::move(reason), ""}); };
     const std::string extension = lower_extension(file_name), main_file = "model" + extension;
     std::vector<std::string> missing;
@@ -345,6 +345,28 @@ Expected<Loaded> read_mesh(std::string_view bytes, const std::string& file_name,
     } catch (const std::exception& error) {
         return wrong(error.what());
     }
+}
+
+}  // namespace
+
+// Some of Assimp's readers crash or never end on damaged files, so it works in a process of its own.
+Expected<Loaded> read_mesh(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder) {
+    const auto wrong = [&](ErrorKind kind, const char* reason) { return failure(kind, {file_name, "", reason, ""}); };
+    const std::size_t megabytes = bytes.size() >> 20;
+    IsolationLimits limits;
+    limits.time += std::chrono::seconds(megabytes);
+    limits.memory += bytes.size() * 100;
+    const auto answer = run_isolated([&] { return pack(read_by_assimp(bytes, file_name, folder)); }, limits);
+    if (!answer) {
+        switch (answer.error()) {
+            case IsolationFailure::crashed: return wrong(ErrorKind::input, "is damaged: Assimp, which reads this format, failed on it");
+            case IsolationFailure::too_long: return wrong(ErrorKind::input, "is damaged: Assimp, which reads this format, did not come to an end");
+            default: return wrong(ErrorKind::resource, "no process could be made to read it");
+        }
+    }
+    auto result = unpack(*answer);
+    if (!result) return wrong(ErrorKind::internal, "the answer of the process that read it is not whole");
+    return std::move(*result);
 }
 #else
 Expected<Loaded> read_mesh(std::string_view, const std::string& file_name, const std::filesystem::path&) {
