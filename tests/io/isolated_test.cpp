@@ -39,7 +39,11 @@ TEST(Isolated, ACrashIsAnAnswer) {
 }
 
 TEST(Isolated, WorkWithoutEndIsEnded) {
-    EXPECT_EQ(run_isolated([]() -> std::string { for (volatile int i = 0;; i = i + 1) {} }, brief()).error(), IsolationFailure::too_long);
+    const auto busy = []() -> std::string {
+        volatile int i = 0;
+        for (;;) i = i + 1;
+    };
+    EXPECT_EQ(run_isolated(busy, brief()).error(), IsolationFailure::too_long);
     EXPECT_EQ(run_isolated([]() -> std::string { for (;;) std::raise(SIGSTOP); }, brief()).error(), IsolationFailure::too_long);
 }
 
