@@ -201,6 +201,11 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (request->replay && (request->replay->x >= settings.width || request->replay->y >= settings.height)) {
         return fail({ErrorKind::usage, {{"", "--replay", "the pixel is outside the picture", ""}}});
     }
+    if (settings.order == scene::Order::automatic && !request->time) {
+        // Nobody watches, and nobody comes back to the rays: the fastest way to the finished picture.
+        loaded->scene.settings.order = scene::Order::tiles;
+        loaded->scene.settings.keep = settings.keep && (request->replay || needs_all_layers(options.outputs));
+    }
     auto session = render::Session::open(std::move(loaded->scene));
     if (!session) return fail(session.error());
 

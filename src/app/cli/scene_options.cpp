@@ -104,6 +104,7 @@ struct Reader {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
+    command.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // scripts can append to what they wrap
     command.add_option("MODEL", options.file, "Scene or model file (see `crescente formats`)")->required()->option_text(" ");
     command.add_option("--size", options.size, "Size of the picture in pixels")->option_text("WxH");
     for (const SettingOption& o : setting_options) {

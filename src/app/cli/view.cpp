@@ -23,6 +23,8 @@ constexpr Named named_views[] = {
     {"iso", {{1, 1, 1}, {0, 1, 0}}},
 };
 
+constexpr const char* studio_view = "studio";
+
 const FieldInfo& field_of_view_info() {
     for (const auto& field : scene::Camera::fields()) {
         if (field.info.name == "field_of_view") return field.info;
@@ -51,8 +53,8 @@ double framing_distance(const math::Bounds& box, Vec3 from, Vec3 up, double fiel
 
 std::string view_names() {
     std::string names;
-    for (const Named& named : named_views) names += (names.empty() ? "" : ", ") + std::string(named.name);
-    return names;
+    for (const Named& named : named_views) names += std::string(named.name) + ", ";
+    return names + studio_view;
 }
 
 Expected<View> parse_view(const std::optional<std::string>& camera, const std::optional<std::string>& field_of_view, bool orthographic) {
@@ -69,7 +71,8 @@ Expected<View> parse_view(const std::optional<std::string>& camera, const std::o
     };
 
     if (camera) {
-        std::vector<std::string> names;
+        std::vector<std::string> names{studio_view};
+        if (*camera == studio_view) view.place = StudioView{};
         for (const Named& named : named_views) {
             names.push_back(named.name);
             if (*camera == named.name) view.place = named.view;
@@ -103,6 +106,10 @@ Expected<View> parse_view(const std::optional<std::string>& camera, const std::o
 
 Expected<void> place_camera(const View& view, scene::Scene& scene) {
     if (!view.place) return {};
+    if (std::holds_alternative<StudioView>(*view.place)) {
+        scene.camera.reset();
+        return {};
+    }
     scene::Camera camera;
     if (scene.camera) camera.pixel_aspect = scene.camera->pixel_aspect;
     if (view.field_of_view) camera.field_of_view = *view.field_of_view;
