@@ -150,7 +150,7 @@ Progress Session::advance(const Deadline& deadline) {
     const auto ceiling = static_cast<std::uint64_t>(s.world->scene.settings.memory);
     const int stages = static_cast<int>(s.stages.size());
     const bool keep = s.world->scene.settings.keep;
-    const Plan plan{stages, s.world->scene.settings.order == scene::Order::even, ceiling ? 4 * static_cast<std::size_t>(s.pool.threads()) : 0};
+    const Plan plan{stages, s.world->scene.settings.order != scene::Order::tiles, ceiling ? 4 * static_cast<std::size_t>(s.pool.threads()) : 0};
     std::vector<TileState> states = s.tile_states();
     while (true) {
         const std::vector<Work> work = next_work(states, plan);

@@ -105,7 +105,7 @@ const FieldTable<Settings>& Settings::fields() {
         field(&S::octant_rejection, {"octant_rejection", FieldType::boolean, "", 0, 1, "kay-kajiya: reject boxes behind the ray by octant"}),
         field(&S::priority_queue, {"priority_queue", FieldType::boolean, "", 0, 1, "kay-kajiya: open the nearest box first"}),
         field(&S::shadow_cache, {"shadow_cache", FieldType::boolean, "", 0, 1, "Try the last occluder of a light first"}),
-        field(&S::order, {"order", FieldType::choice, "", 0, 1, "Grow the picture evenly, or tile after tile", {"even", "tiles"}}),
+        field(&S::order, {"order", FieldType::choice, "", 0, 2, "Grow the picture evenly, or tile after tile", {"automatic", "even", "tiles"}}),
         field(&S::keep, {"keep", FieldType::boolean, "", 0, 1, "Keep the rays of finished tiles"}),
         field(&S::tile, {"tile", FieldType::integer, "px", 8, 4096, "Edge of a tile"}),
         field(&S::threads, {"threads", FieldType::integer, "", 0, 1024, "Threads; 0: one for each core"}),

@@ -12,6 +12,7 @@ enum class Tonemap { automatic, srgb, neutral };
 enum class AcceleratorKind { embree, kay_kajiya, linear };
 enum class SubpixelShortcut { off, exact, trust };
 enum class Order {
+    automatic,  // even, but tiles where nobody watches: the command line without a time limit
     even,   // the whole picture grows evenly: for whoever watches
     tiles,  // after the first coarse picture one tile after the other to the end: faster, for whoever waits
 };
@@ -31,7 +32,7 @@ struct Settings {
     bool octant_rejection = true;  // kay-kajiya
     bool priority_queue = true;    // kay-kajiya
     bool shadow_cache = true;
-    Order order = Order::even;
+    Order order = Order::automatic;
     bool keep = true;              // keep the trees of finished tiles; false: their pixels only
     int tile = 64;                 // edge of a tile, pixels
     int threads = 0;               // 0: all

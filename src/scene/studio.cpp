@@ -88,7 +88,7 @@ void add_dome(Scene& scene, int directions, double irradiance) {
 void add_ground(Scene& scene, const Bounds& box, double radius) {
     Material material{"studio ground", PhysicalMaterial{}};
     auto& model = std::get<PhysicalMaterial>(material.model);
-    model.base_color = gray(0.72f);
+    model.base_color = gray(0.5f);
     model.roughness = 0.3;
     model.ior = 1.4;
     const MaterialId id{static_cast<std::uint32_t>(scene.materials.size())};
@@ -136,9 +136,9 @@ void add_studio(Scene& scene) {
     if (shines(scene)) return;
 
     const double azimuth = std::atan2(towards_camera.x, towards_camera.z) * 180 / math::pi;
-    add_soft_box(scene, "key", center, direction_of(azimuth - 48, 48), 5 * radius, 1.1 * radius, 16, 2.1, {1.0f, 0.97f, 0.93f});
-    add_soft_box(scene, "rim", center, direction_of(azimuth + 150, 38), 5 * radius, 0.8 * radius, 5, 1.1, {0.93f, 0.96f, 1.0f});
-    add_dome(scene, 20, 1.35);
+    add_soft_box(scene, "key", center, direction_of(azimuth - 42, 46), 5 * radius, 1.1 * radius, 16, 2.9, {1.0f, 0.97f, 0.93f});
+    add_soft_box(scene, "rim", center, direction_of(azimuth + 150, 38), 5 * radius, 0.8 * radius, 5, 1.0, {0.93f, 0.96f, 1.0f});
+    add_dome(scene, 20, 0.85);
     if (!scene.environment) {
         Environment studio;
         studio.zenith = gray(1.25f);
