@@ -14,9 +14,9 @@ using geometry::Ray;
 
 Vec3 normal_of(const Node& node) { return {node.normal[0], node.normal[1], node.normal[2]}; }
 
-// A start on the side of `direction` of the node's surface, clear of it.
-Vec3 start(const Node& node, Vec3 geometric_normal, Vec3 direction) {
-    return node.position + geometric_normal * (dot(geometric_normal, direction) >= 0 ? node.offset : -node.offset);
+// A start on the side of `direction` of a surface, clear of it.
+Vec3 start(Vec3 position, Vec3 geometric_normal, double offset, Vec3 direction) {
+    return position + geometric_normal * (dot(geometric_normal, direction) >= 0 ? offset : -offset);
 }
 
 }  // namespace
@@ -114,62 +114,55 @@ Vec3 Growth::to_viewer(const Node& node) const {
 void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
-    viewers_.resize(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        Node& node = tile_.nodes[nodes[i]];
+    lit_.clear();
+    for (const std::uint32_t i : nodes) {
+        Node& node = tile_.nodes[i];
         if (node.left_scene()) continue;
-        viewers_[i] = to_viewer(node);
         const Lobes& lobes = world_.lobes[node.material];
-        node.local = lobes.emission + reflect_environment(world_.environment, lobes, normal_of(node), viewers_[i]);
+        const Vec3 normal = normal_of(node), viewer = to_viewer(node);
+        lit_.push_back({i, &lobes, node.position, normal, decode_direction(node.geometric_normal), viewer, node.offset, {}, 0,
+                        lobes.emission + reflect_environment(world_.environment, lobes, normal, viewer)});
         node.shadowed = node.shadowed || shadows;
     }
-    incidents_.resize(nodes.size());
     for (std::size_t l = 0; l < lights; ++l) {
         const Light& light = world_.lights[l];
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            const Node& node = tile_.nodes[nodes[i]];
-            if (!node.left_scene()) incidents_[i] = light.at(node.position);
+        for (Lit& lit : lit_) {
+            lit.incident = light.at(lit.position);
+            lit.cosine = is_black(lit.incident.strength) ? 0 : dot(lit.normal, lit.incident.to_light);
         }
-        if (shadows && light.casts_shadows()) trace_shadows(l, nodes, coherence);
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-            Node& node = tile_.nodes[nodes[i]];
-            if (node.left_scene()) continue;
-            const std::size_t key = std::size_t{nodes[i]} * lights + l;
+        if (shadows && light.casts_shadows()) trace_shadows(l, coherence);
+        for (Lit& lit : lit_) {
+            if (!(lit.cosine > 0)) continue;
+            const std::size_t key = std::size_t{lit.node} * lights + l;
             const Share share = tile_.shares[key];
-            if (share == Share::blocked || share == Share::behind) continue;
-            const Incident& incident = incidents_[i];
-            const Vec3 normal = normal_of(node);
-            const double cosine = dot(normal, incident.to_light);
-            if (cosine <= 0 || is_black(incident.strength)) continue;
-            Rgb strength = incident.strength;
+            if (share == Share::blocked) continue;
+            Rgb strength = lit.incident.strength;
             if (share == Share::filtered) strength *= tile_.filtered.at(key);
-            node.local += strength * reflect_light(world_.lobes[node.material], normal, viewers_[i], incident.to_light, cosine, light.makes_highlights());
+            lit.sum += strength * reflect_light(*lit.lobes, lit.normal, lit.viewer, lit.incident.to_light, lit.cosine, light.makes_highlights());
         }
     }
+    for (const Lit& lit : lit_) tile_.nodes[lit.node].local = lit.sum;
 }
 
-void Growth::trace_shadows(std::size_t light, std::span<const std::uint32_t> nodes, Coherence coherence) {
+void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     accel::TestCounts counts;
     if (settings_.shadow_cache) last_occluder_.resize(lights * 256);
     rays_.clear();
     shadow_nodes_.clear();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Node& node = tile_.nodes[nodes[i]];
-        if (node.left_scene()) continue;
-        Share& share = tile_.shares[std::size_t{nodes[i]} * lights + light];
-        const Incident& incident = incidents_[i];
-        if (is_black(incident.strength) || dot(normal_of(node), incident.to_light) <= 0) {
+    for (const Lit& lit : lit_) {
+        Share& share = tile_.shares[std::size_t{lit.node} * lights + light];
+        if (!(lit.cosine > 0)) {
             share = Share::behind;
             continue;
         }
         Ray ray;
-        ray.origin = start(node, decode_direction(node.geometric_normal), incident.to_light);
-        ray.direction = incident.to_light;
-        ray.t_max = incident.distance;
+        ray.origin = start(lit.position, lit.geometric, lit.offset, lit.incident.to_light);
+        ray.direction = lit.incident.to_light;
+        ray.t_max = lit.incident.distance;
         ++tile_.rays.shadow;
         if (settings_.shadow_cache) {
-            const Hit& last = last_occluder_[light * 256 + node.depth];
+            const Hit& last = last_occluder_[light * 256 + tile_.nodes[lit.node].depth];
             if (last.found()) {
                 const accel::Instance& instance = world_.instances[last.instance];
                 Hit hit;
@@ -183,7 +176,7 @@ void Growth::trace_shadows(std::size_t light, std::span<const std::uint32_t> nod
             }
         }
         rays_.push_back(ray);
-        shadow_nodes_.push_back(nodes[i]);
+        shadow_nodes_.push_back(lit.node);
     }
     hits_.resize(rays_.size());
     crossings_.clear();
@@ -263,7 +256,7 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
             if (const double above = dot(ray.direction, geometric); above < 1e-4) ray.direction = normalize(ray.direction + geometric * (1e-4 - above));
             ++tile_.rays.reflected;
         }
-        ray.origin = start(node, geometric, ray.direction);
+        ray.origin = start(node.position, geometric, node.offset, ray.direction);
         rays.push_back(ray);
         const bool through_medium = p.refracted != node.inside && !is_black(lobes.attenuation);
         seeds.push_back({p.parent, p.weight, static_cast<std::uint8_t>(node.depth + 1), through_medium ? &lobes.attenuation : nullptr});

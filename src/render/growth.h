@@ -54,7 +54,16 @@ private:
         const Rgb* attenuation = nullptr;  // of the medium that the ray went through
     };
     void append(const geometry::Ray& ray, const accel::Hit& hit, const Seed& seed, double picture_height);
-    void trace_shadows(std::size_t light, std::span<const std::uint32_t> nodes, accel::Coherence coherence);
+    struct Lit {  // a hit whose light is being summed, with what every light needs to know of it
+        std::uint32_t node;
+        const Lobes* lobes;
+        Vec3 position, normal, geometric, viewer;
+        double offset;
+        Incident incident;  // of the current light
+        double cosine = 0;
+        Rgb sum;
+    };
+    void trace_shadows(std::size_t light, accel::Coherence coherence);
     Rgb passage(std::span<const accel::Crossing> crossings, const geometry::Ray& ray) const;
     Vec3 to_viewer(const Node& node) const;
 
@@ -66,10 +75,9 @@ private:
     // Scratch, kept between chunks.
     std::vector<geometry::Ray> rays_;
     std::vector<accel::Hit> hits_;
+    std::vector<Lit> lit_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;
-    std::vector<Vec3> viewers_;
-    std::vector<Incident> incidents_;
     std::vector<std::uint32_t> fresh_;
     std::vector<accel::Hit> last_occluder_;  // shadow cache: by light and depth
 };

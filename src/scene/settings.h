@@ -31,7 +31,7 @@ struct Settings {
     AcceleratorKind accelerator = AcceleratorKind::embree;
     bool octant_rejection = true;  // kay-kajiya
     bool priority_queue = true;    // kay-kajiya
-    bool shadow_cache = true;
+    bool shadow_cache = false;
     Order order = Order::automatic;
     bool keep = true;              // keep the trees of finished tiles; false: their pixels only
     int tile = 64;                 // edge of a tile, pixels
