@@ -150,7 +150,8 @@ void add_studio(Scene& scene) {
         studio.backdrop_top = gray(0.75f);
         scene.environment = studio;
     }
-    if (!own_camera && box.bounded()) add_ground(scene, box, radius);
+    // Seen from below, a ground would hide the model.
+    if (box.bounded() && scene.camera->position.y > box.lower.y) add_ground(scene, box, radius);
 }
 
 }  // namespace crescente::scene

@@ -5,8 +5,8 @@
 
 namespace crescente::scene {
 
-// Adds what is missing: a camera that frames the bounds when the scene has none; lights, ground and environment when it has
-// no lights and nothing that emits. The scene must not be empty.
+// Adds what is missing: a camera that frames what is visible when the scene has none; lights, ground and environment when it has
+// no light of its own. The scene must not be empty.
 void add_studio(Scene& scene);
 
 }  // namespace crescente::scene
