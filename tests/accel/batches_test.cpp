@@ -94,7 +94,7 @@ TEST_P(Batches, ManyThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Batches, ::testing::Values("shapes_of_all_kinds", "instanced_meshes", "one_mesh", "coincident"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& scene_name) { return scene_name.param; });
 
 }  // namespace
 }  // namespace crescente::accel::testing

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Places, ClosedMesh,
                          ::testing::Values(std::tuple{std::string("at_the_origin"), Affine{}}, std::tuple{std::string("turned"), turned(1, {})},
                                            std::tuple{std::string("small"), turned(1e-3, {1, 2, 3})},
                                            std::tuple{std::string("far_out"), turned(1, {1e6, -1e6, 1e6})}),
-                         [](const auto& info) { return std::get<std::string>(info.param); });
+                         [](const auto& place) { return std::get<std::string>(place.param); });
 
 }  // namespace
 }  // namespace crescente::accel::testing
