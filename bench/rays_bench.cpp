@@ -1,0 +1,158 @@
+// Rays per second: our accelerator, with hits in double, and a whole session at level `visible`, against Embree alone on its own triangles
+// and spheres in float, on the same rays. All on one thread; items_per_second counts rays. bench/run turns it into ratios.
+#include <benchmark/benchmark.h>
+
+#include <memory>
+
+#include "accel/accelerator.h"
+#include "raw_embree.h"
+#include "render/camera_rays.h"
+#include "render/session.h"
+#include "scene/hierarchy.h"
+#include "scenes.h"
+
+namespace crescente::bench {
+namespace {
+
+using accel::Coherence;
+using accel::Hit;
+using accel::Ray;
+using math::Vec3;
+
+constexpr int edge = 1024;            // of the picture, pixels
+constexpr std::size_t batch = 4096;   // rays handed over at once: a tile of 64 x 64 pixels
+
+struct Rays {
+    std::vector<Ray> rays;
+    Coherence coherence;
+};
+
+// A scene with its accelerators, and the rays of its picture.
+struct Bench {
+    explicit Bench(scene::Scene from) : scene(std::move(from)) {
+        scene.settings.width = scene.settings.height = edge;
+        scene::for_each_appearance(scene, [&](std::uint32_t node, const math::Affine& to_world, const auto&) {
+            instances.emplace_back(scene.shapes[scene.nodes[node].shape.value].shape, to_world, true);
+        });
+        ours = std::move(accel::make_embree(instances, 0).value());
+        raw = std::make_unique<RawEmbree>(instances);
+        make_rays();
+    }
+
+    // Pixel after pixel in blocks of 4 x 4; where the camera ray hits, its mirror image and the way to the first light.
+    void make_rays() {
+        const render::CameraRays view(*scene.camera, edge, edge);
+        for (int tile = 0; tile < edge * edge / 16; ++tile) {
+            for (int i = 0; i < 16; ++i) {
+                const int x = tile % (edge / 4) * 4 + i % 4, y = tile / (edge / 4) * 4 + i / 4;
+                camera.rays.push_back(view.through(x + 0.5, y + 0.5));
+            }
+        }
+        std::vector<Hit> hits(camera.rays.size());
+        accel::TestCounts counts;
+        ours->nearest(camera.rays, hits, Coherence::coherent, counts);
+        const Vec3 light = scene.lights.front().position;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (!hits[i].found()) continue;
+            const accel::Instance& instance = instances[hits[i].instance];
+            const Vec3 at = camera.rays[i].at(hits[i].t), in = camera.rays[i].direction;
+            const auto surface = geometry::surface(*instance.shape, hits[i].primitive, instance.to_local.point(at));
+            const Vec3 outward = normalize(instance.to_world.vector(surface.normal));  // rigid transforms only
+            const Vec3 normal = dot(in, outward) > 0 ? -outward : outward;
+            const double offset = 1e-4 * length(at - camera.rays[i].origin);
+            const Vec3 start = at + normal * offset, to_light = light - start;
+            reflected.rays.push_back({start, normalize(in - normal * (2 * dot(in, normal)))});
+            if (dot(to_light, normal) > 0) shadow.rays.push_back({start, normalize(to_light), 0, length(to_light)});
+        }
+    }
+
+    scene::Scene scene;
+    std::vector<accel::Instance> instances;
+    std::unique_ptr<accel::Accelerator> ours;
+    std::unique_ptr<RawEmbree> raw;
+    Rays camera{{}, Coherence::coherent}, reflected{{}, Coherence::incoherent}, shadow{{}, Coherence::coherent};
+};
+
+void count_rays(benchmark::State& state, std::size_t rays, std::size_t hits) {
+    state.SetItemsProcessed(static_cast<std::int64_t>(rays) * state.iterations());
+    state.counters["hit_share"] = static_cast<double>(hits) / static_cast<double>(rays);
+}
+
+std::size_t found(std::span<const Hit> hits) {
+    std::size_t count = 0;
+    for (const Hit& hit : hits) count += hit.found();
+    return count;
+}
+
+void run_ours(benchmark::State& state, const Bench& bench, const Rays& rays, bool shadows) {
+    std::vector<Hit> hits(batch);
+    std::vector<accel::Crossing> crossings;
+    std::size_t hit = 0;
+    for (auto _ : state) {
+        hit = 0;
+        for (std::size_t first = 0; first < rays.rays.size(); first += batch) {
+            const auto some = std::span(rays.rays).subspan(first, std::min(batch, rays.rays.size() - first));
+            const auto into = std::span(hits).first(some.size());
+            accel::TestCounts counts;
+            if (shadows) bench.ours->shadow(some, into, crossings, rays.coherence, counts);
+            else bench.ours->nearest(some, into, rays.coherence, counts);
+            hit += found(into);
+        }
+    }
+    count_rays(state, rays.rays.size(), hit);
+}
+
+void run_raw(benchmark::State& state, const Bench& bench, const Rays& rays, bool shadows) {
+    const auto packets = RawEmbree::pack(rays.rays, rays.coherence == Coherence::coherent);
+    std::size_t hit = 0;
+    for (auto _ : state) hit = shadows ? bench.raw->occluded(packets) : bench.raw->nearest(packets);
+    count_rays(state, packets.nearest.size() * 16, hit);
+}
+
+// Growth of the whole level and the picture: camera rays through all corners of pixels, shading, film.
+void run_session(benchmark::State& state, const Bench& bench) {
+    std::uint64_t rays = 0;
+    for (auto _ : state) {
+        state.PauseTiming();
+        scene::Scene scene = bench.scene;
+        scene.settings.level = scene::Level::visible;
+        scene.settings.order = scene::Order::tiles;
+        scene.settings.keep = false;
+        scene.settings.threads = 1;
+        auto session = std::make_unique<render::Session>(std::move(render::Session::open(std::move(scene)).value()));
+        state.ResumeTiming();
+        session->advance(render::Deadline::never());
+        benchmark::DoNotOptimize(session->picture());
+        state.PauseTiming();
+        rays = session->stats().rays.total();
+        session.reset();
+        state.ResumeTiming();
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(rays) * state.iterations());
+}
+
+void add(const std::string& name, const std::shared_ptr<Bench>& bench) {
+    const auto pair = [&](const std::string& kind, const Rays& rays, bool shadows) {
+        benchmark::RegisterBenchmark((name + "/" + kind + "/embree").c_str(), [=, &rays](auto& s) { run_raw(s, *bench, rays, shadows); })
+            ->Unit(benchmark::kMillisecond);
+        benchmark::RegisterBenchmark((name + "/" + kind + "/crescente").c_str(), [=, &rays](auto& s) { run_ours(s, *bench, rays, shadows); })
+            ->Unit(benchmark::kMillisecond);
+    };
+    pair("camera", bench->camera, false);
+    pair("reflected", bench->reflected, false);
+    pair("shadow", bench->shadow, true);
+    benchmark::RegisterBenchmark((name + "/camera/session").c_str(), [=](auto& s) { run_session(s, *bench); })->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+}  // namespace crescente::bench
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    using namespace crescente::bench;
+    add("million triangles", std::make_shared<Bench>(bumpy_sphere()));
+    add("sphereflake", std::make_shared<Bench>(load("balls4.nff")));
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
