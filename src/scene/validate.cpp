@@ -317,36 +317,44 @@ private:
         add("/objects", "the hierarchy goes round in a circle: " + text + name(from));
     }
 
-    // Something must be seen. Also counts appearances: nested instances multiply.
+    // Something must be seen. Also counts what a walk down the hierarchy comes by: nested instances multiply, with and without shapes.
     void check_visible() {
-        const auto nodes = scene_.nodes.size();
-        std::vector<double> appearances(nodes, -1);  // of shapes at and below a node; as a double it cannot overflow
+        struct Below {
+            double shapes = -1, places = 0;  // at and below a node, hidden ones left out; as doubles they cannot overflow
+        };
+        std::vector<Below> below(scene_.nodes.size());
         std::vector<std::pair<std::uint32_t, bool>> open;
-        double all = 0;
+        double shapes = 0, places = 0;
         for (const NodeId root : scene_.roots) {
             open.push_back({root.value, false});
             while (!open.empty()) {
                 const auto [node, children_known] = open.back();
                 open.pop_back();
-                if (appearances[node] >= 0) continue;
+                Below& sum = below[node];
+                if (sum.shapes >= 0) continue;
                 const Node& n = scene_.nodes[node];
                 if (!n.visible) {
-                    appearances[node] = 0;
+                    sum = {0, 1};
                 } else if (!children_known) {
                     open.push_back({node, true});
                     for (const NodeId child : n.children) {
-                        if (appearances[child.value] < 0) open.push_back({child.value, false});
+                        if (below[child.value].shapes < 0) open.push_back({child.value, false});
                     }
                 } else {
-                    appearances[node] = n.shape.valid() ? 1 : 0;
-                    for (const NodeId child : n.children) appearances[node] += appearances[child.value];
+                    sum = {n.shape.valid() ? 1.0 : 0.0, 1};
+                    for (const NodeId child : n.children) sum.shapes += below[child.value].shapes, sum.places += below[child.value].places;
                 }
             }
-            all += appearances[root.value];
+            shapes += below[root.value].shapes;
+            places += below[root.value].places;
         }
-        constexpr double most_appearances = 4294967294.0;
-        if (all == 0) add("/objects", "nothing in the scene can be seen", "no visible object has a shape");
-        if (all > most_appearances) add("/objects", "the instances show " + number_text(all) + " shapes, more than can be told apart");
+        constexpr double most_shapes = 1 << 26, most_places = 1 << 28;  // some 16 GB, and some seconds to walk through
+        if (shapes == 0) add("/objects", "nothing in the scene can be seen", "no visible object has a shape");
+        if (shapes > most_shapes) {
+            add("/objects", "the instances show " + number_text(shapes) + " shapes, more than the " + number_text(most_shapes) + " that can be held");
+        } else if (places > most_places) {
+            add("/objects", "shared groups make " + number_text(places) + " places, more than the " + number_text(most_places) + " that can be walked through");
+        }
     }
 
     const Scene& scene_;
