@@ -2,15 +2,36 @@
 
 namespace crescente::render {
 
-std::size_t Tile::bytes() const {
-    // Hash maps: a node with its link, and a bucket, for each entry.
+namespace {
+
+// The sum over all columns of a tile of what `length` says of each; maps by entry and bucket.
+template <class Length>
+std::size_t sum_columns(const Tile& tile, Length length) {
+    const auto vector_bytes = [&](const auto& column) { return length(column) * sizeof(column[0]); };
     const auto map_bytes = [](const auto& map) {
         using Value = typename std::remove_cvref_t<decltype(map)>::value_type;
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
-    return nodes.capacity() * sizeof(Node) + shares.capacity() * sizeof(Share) + corners.capacity() * sizeof(std::uint32_t) +
-           pending.capacity() * sizeof(Pending) + quads.capacity() * sizeof(Quad) + todo.capacity() * sizeof(std::uint32_t) +
-           pixels.capacity() * sizeof(Rgb) + map_bytes(filtered) + map_bytes(subpixel_roots);
+    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.corners) + vector_bytes(tile.pending) + vector_bytes(tile.quads) +
+           vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.subpixel_roots);
+}
+
+}  // namespace
+
+std::size_t Tile::bytes() const {
+    return sum_columns(*this, [](const auto& column) { return column.capacity(); });
+}
+
+std::size_t Tile::filled_bytes() const {
+    return sum_columns(*this, [](const auto& column) { return column.size(); });
+}
+
+void Tile::trim() {
+    nodes.shrink_to_fit();
+    shares.shrink_to_fit();
+    pending.shrink_to_fit();
+    quads.shrink_to_fit();
+    todo.shrink_to_fit();
 }
 
 Rgb influence(const Tile& tile, std::uint32_t node) {

@@ -73,6 +73,7 @@ struct Tile {
     std::unordered_map<std::uint64_t, Rgb> filtered;       // by node * lights + light
     std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
     std::vector<Pending> pending;
+    std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end
     std::vector<Quad> quads;                               // the first width x height are the pixels; empty before the first split
     std::unordered_map<std::uint64_t, std::uint32_t> subpixel_roots;  // by lattice point; only while pixels are split
 
@@ -81,12 +82,15 @@ struct Tile {
     std::vector<std::uint32_t> todo;  // what the next stage works through: its meaning is the stage's
     std::vector<Rgb> pixels;  // what the trees gave at an earlier time: before they were dropped, or left unlit
     int pixels_stage = -1;    // stages that were complete then; -1: never
+    bool going_on = false;    // dropped before it was finished, and being grown anew to the end
     bool lit = true;          // false: some nodes wait for their light
 
     RayCounts rays;
     TestCounts tests;
 
-    std::size_t bytes() const;
+    std::size_t bytes() const;         // allocated
+    std::size_t filled_bytes() const;  // in use: what is left after trim()
+    void trim();                       // gives back what was allocated in reserve
     bool shows_pixels() const { return pixels_stage > stage || !lit; }
     int shown_stage() const { return shows_pixels() ? pixels_stage : stage; }
     std::uint32_t& corner(int x, int y) { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }

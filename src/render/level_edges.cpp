@@ -93,9 +93,15 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         tile.cursor = 1;
     }
 
-    // New corners, a chunk at a time, each grown to the end. `todo` lists places by index; the cursor is one more than those done.
+    // New corners, a chunk at a time, each grown to the end before the next. `todo` lists places by index; the cursor is one more than
+    // those done.
     const bool shortcut = growth.settings().subpixel_shortcut != scene::SubpixelShortcut::off;
-    while (tile.cursor - 1 < tile.todo.size()) {
+    while (true) {
+        if (!growth.grow_above(tile.growing, growth.settings().threshold, deadline)) return false;
+        tile.pending.insert(tile.pending.end(), tile.growing.begin(), tile.growing.end());
+        tile.growing.clear();
+        if (tile.cursor - 1 == tile.todo.size()) break;
+
         std::vector<LatticePoint> points;
         std::vector<std::array<std::uint32_t, 4>> tried_first;
         const std::size_t end = std::min(tile.todo.size(), tile.cursor - 1 + chunk_size / 4);
@@ -112,12 +118,9 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         std::vector<std::uint32_t> roots(points.size());
         std::iota(roots.begin(), roots.end(), first);
         growth.light(roots, true, accel::Coherence::coherent);
-        std::vector<Pending> pending;
-        growth.spawn(roots, pending);
-        growth.grow_above(pending, growth.settings().threshold, Deadline::never());
-        tile.pending.insert(tile.pending.end(), pending.begin(), pending.end());
+        growth.spawn(roots, tile.growing);
         tile.cursor = end + 1;
-        if (tile.cursor - 1 < tile.todo.size() && deadline.passed()) return false;
+        if (deadline.passed()) return false;
     }
 
     for (const std::uint32_t i : tile.todo) {
