@@ -7,17 +7,22 @@ namespace crescente::render {
 std::vector<Work> next_work(std::span<const TileState> tiles, const Plan& plan) {
     std::vector<Work> work;
     const std::size_t most = plan.batch ? plan.batch : tiles.size();
+    const std::size_t most_to_end = plan.batch ? plan.threads : tiles.size();
+    for (std::uint32_t i = 0; i < tiles.size(); ++i) {
+        if (tiles[i].going_on) work.push_back({i, plan.stages});
+    }
+    if (!work.empty()) return work;
     const auto kept = [](const TileState& t) { return t.stage == t.shown_stage; };
     int lowest = plan.stages;
     for (const TileState& t : tiles) {
         if (kept(t)) lowest = std::min(lowest, t.stage);
     }
     const int until = plan.even || lowest == 0 ? lowest + 1 : plan.stages;
-    for (std::uint32_t i = 0; lowest < plan.stages && i < tiles.size() && work.size() < most; ++i) {
+    for (std::uint32_t i = 0; lowest < plan.stages && i < tiles.size() && work.size() < (until == plan.stages ? most_to_end : most); ++i) {
         if (kept(tiles[i]) && tiles[i].stage == lowest) work.push_back({i, until});
     }
     if (!work.empty()) return work;
-    for (std::uint32_t i = 0; i < tiles.size() && work.size() < most; ++i) {
+    for (std::uint32_t i = 0; i < tiles.size() && work.size() < most_to_end; ++i) {
         if (tiles[i].shown_stage < plan.stages) work.push_back({i, plan.stages});
     }
     return work;
@@ -28,7 +33,7 @@ std::vector<std::uint32_t> tiles_to_drop(std::span<const TileState> tiles, int s
     std::vector<std::uint32_t> order;
     for (std::uint32_t i = 0; i < tiles.size(); ++i) {
         total += tiles[i].bytes;
-        if (tiles[i].stage > 0) order.push_back(i);
+        if (tiles[i].stage > 0 && !tiles[i].under_way) order.push_back(i);
     }
     std::vector<std::uint32_t> drop;
     if (total <= ceiling) return drop;

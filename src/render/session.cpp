@@ -107,7 +107,7 @@ void Session::State::drop(Tile& tile) {
 std::vector<TileState> Session::State::tile_states() const {
     std::vector<TileState> states;
     states.reserve(tiles.size());
-    for (const Tile& tile : tiles) states.push_back({tile.stage, tile.shown_stage(), tile.bytes()});
+    for (const Tile& tile : tiles) states.push_back({tile.stage, tile.shown_stage(), tile.bytes(), tile.going_on});
     return states;
 }
 
@@ -150,7 +150,8 @@ Progress Session::advance(const Deadline& deadline) {
     const auto ceiling = static_cast<std::uint64_t>(s.world->scene.settings.memory);
     const int stages = static_cast<int>(s.stages.size());
     const bool keep = s.world->scene.settings.keep;
-    const Plan plan{stages, s.world->scene.settings.order != scene::Order::tiles, ceiling ? 4 * static_cast<std::size_t>(s.pool.threads()) : 0};
+    const Plan plan{stages, s.world->scene.settings.order != scene::Order::tiles, ceiling ? 4 * static_cast<std::size_t>(s.pool.threads()) : 0,
+                    static_cast<std::size_t>(s.pool.threads())};
     std::vector<TileState> states = s.tile_states();
     while (true) {
         const std::vector<Work> work = next_work(states, plan);
@@ -166,8 +167,15 @@ Progress Session::advance(const Deadline& deadline) {
         s.pool.for_each(work.size(), [&](std::size_t i) {
             if (deadline.passed()) return;
             Tile& tile = s.tiles[work[i].tile];
-            if (!s.advance_tile(tile, work[i].until, deadline) || keep || tile.stage < stages) return;
-            s.dropped_bytes += tile.bytes();
+            tile.going_on = ceiling > 0 && work[i].until == stages;
+            if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
+            tile.going_on = false;
+            if (keep) {
+                tile.pixels = {};
+                tile.pixels_stage = -1;
+                return tile.trim();
+            }
+            s.dropped_bytes += tile.filled_bytes();
             s.dropped_nodes += tile.nodes.size();
             State::drop(tile);
         });
@@ -182,6 +190,7 @@ Progress Session::advance(const Deadline& deadline) {
         for (const TileState& state : states) bytes += state.bytes;
         s.peak_bytes = std::max(s.peak_bytes, bytes);
         if (ceiling > 0 && bytes > ceiling) {
+            for (const Work& w : work) states[w.tile].under_way = states[w.tile].shown_stage < w.until;
             const auto floor = sizeof(Rgb) * static_cast<std::uint64_t>(s.tile_size()) * static_cast<std::uint64_t>(s.tile_size());
             const auto victims = tiles_to_drop(states, stages, ceiling, floor);
             s.pool.for_each(victims.size(), [&](std::size_t i) { State::drop(s.tiles[victims[i]]); });
