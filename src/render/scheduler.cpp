@@ -9,7 +9,7 @@ std::vector<Work> next_work(std::span<const TileState> tiles, const Plan& plan) 
     const std::size_t most = plan.batch ? plan.batch : tiles.size();
     const std::size_t most_to_end = plan.batch ? plan.threads : tiles.size();
     for (std::uint32_t i = 0; i < tiles.size(); ++i) {
-        if (tiles[i].going_on) work.push_back({i, plan.stages});
+        if (tiles[i].under_way) work.push_back({i, plan.stages});
     }
     if (!work.empty()) return work;
     const auto kept = [](const TileState& t) { return t.stage == t.shown_stage; };

@@ -11,7 +11,7 @@ struct TileState {
     int stage = 0;          // stages that its kept trees have completed
     int shown_stage = 0;    // stages that its picture has completed: more, if the trees were dropped
     std::uint64_t bytes = 0;
-    bool under_way = false;  // its work was interrupted: dropping it now would undo what each quantum does
+    bool under_way = false;  // interrupted, or on its way to the end after its trees were dropped: dropping it now would undo what was done
 };
 
 struct Work {

@@ -112,9 +112,10 @@ TEST(TilesToDrop, FitUnderTheCeiling) {
         for (TileState& t : tiles) {
             t.stage = static_cast<int>(random() % (stages + 1));
             t.shown_stage = std::max(t.stage, static_cast<int>(random() % (stages + 1)));
+            t.under_way = random() % 8 == 0;
             t.bytes = random() % 3 ? floor + random() % 5000 : random() % 120;
             total += t.bytes;
-            least += t.stage > 0 ? std::min(t.bytes, floor) : t.bytes;
+            least += t.stage > 0 && !t.under_way ? std::min(t.bytes, floor) : t.bytes;
         }
         const std::uint64_t ceiling = random() % (total + 100);
         const auto drop = tiles_to_drop(tiles, stages, ceiling, floor);
@@ -125,19 +126,22 @@ TEST(TilesToDrop, FitUnderTheCeiling) {
             continue;
         }
         ASSERT_LE(bytes_after(tiles, drop, floor), std::max(ceiling, least));
-        for (const std::uint32_t i : drop) ASSERT_GT(tiles[i].bytes, floor) << "dropping it gains nothing";
+        for (const std::uint32_t i : drop) {
+            ASSERT_GT(tiles[i].bytes, floor) << "dropping it gains nothing";
+            ASSERT_FALSE(tiles[i].under_way) << "dropping it undoes work";
+        }
         if (!drop.empty()) {  // the last one was still needed
             ASSERT_GT(bytes_after(tiles, {drop.begin(), drop.end() - 1}, floor), ceiling);
         }
         // Finished ones go first: nothing unfinished goes while a finished one that would help stays.
         const bool unfinished = std::any_of(drop.begin(), drop.end(), [&](std::uint32_t i) { return tiles[i].stage < stages; });
         for (std::uint32_t i = 0; unfinished && i < tiles.size(); ++i) {
-            ASSERT_TRUE(tiles[i].stage < stages || tiles[i].bytes <= floor || chosen.contains(i));
+            ASSERT_TRUE(tiles[i].stage < stages || tiles[i].under_way || tiles[i].bytes <= floor || chosen.contains(i));
         }
         // Then those least far.
         for (const std::uint32_t gone : drop) {
             for (std::uint32_t i = 0; tiles[gone].stage < stages && i < tiles.size(); ++i) {
-                if (chosen.contains(i) || tiles[i].stage == 0 || tiles[i].bytes <= floor || tiles[i].stage == stages) continue;
+                if (chosen.contains(i) || tiles[i].under_way || tiles[i].stage == 0 || tiles[i].bytes <= floor || tiles[i].stage == stages) continue;
                 ASSERT_GE(tiles[i].stage, tiles[gone].stage);
             }
         }
