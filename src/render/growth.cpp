@@ -159,7 +159,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         Ray ray;
         ray.origin = start(lit.position, lit.geometric, lit.offset, lit.incident.to_light);
         ray.direction = lit.incident.to_light;
-        ray.t_max = lit.incident.distance;
+        ray.t_max = lit.incident.distance * (1 - 1e-12) - 2 * lit.offset;  // short of a surface that the lamp lies in
         ++tile_.rays.shadow;
         if (settings_.shadow_cache) {
             const Hit& last = last_occluder_[light * 256 + tile_.nodes[lit.node].depth];
