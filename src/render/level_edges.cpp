@@ -136,6 +136,7 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         tile.quads.push_back({{m[2], m[3], m[4], c[3]}, no_node});
     }
     tile.todo.clear();
+    tile.growing = {};
     if (stage.parameter == growth.settings().supersampling) tile.subpixel_roots = {};
     return true;
 }
