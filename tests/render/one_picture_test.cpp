@@ -34,7 +34,10 @@ const Variation variations[] = {
     {"brute force", [](Settings& s) { s.accelerator = scene::AcceleratorKind::linear; }},
     {"Kay-Kajiya", [](Settings& s) { s.accelerator = scene::AcceleratorKind::kay_kajiya; }},
     {"Kay-Kajiya, bare", [](Settings& s) { s.accelerator = scene::AcceleratorKind::kay_kajiya, s.octant_rejection = s.priority_queue = false; }},
-    {"no shadow cache", [](Settings& s) { s.shadow_cache = false; }},
+    {"the other shadow cache", [](Settings& s) { s.shadow_cache = !s.shadow_cache; }},
+    {"shadow cache, two threads", [](Settings& s) { s.shadow_cache = true, s.threads = 2; }},
+    {"no shadow cache, two threads", [](Settings& s) { s.shadow_cache = false, s.threads = 2; }},
+    {"shadow cache, Kay-Kajiya", [](Settings& s) { s.shadow_cache = true, s.accelerator = scene::AcceleratorKind::kay_kajiya; }},
     {"no shadow cache, brute force, one tile", [](Settings& s) { s.shadow_cache = false, s.accelerator = scene::AcceleratorKind::linear, s.tile = 4096; }},
     {"sub-pixel shortcut", [](Settings& s) { s.subpixel_shortcut = scene::SubpixelShortcut::exact; }},
     {"sub-pixel shortcut, Kay-Kajiya", [](Settings& s) { s.subpixel_shortcut = scene::SubpixelShortcut::exact, s.accelerator = scene::AcceleratorKind::kay_kajiya; }},
@@ -122,6 +125,24 @@ TEST(OnePicture, HoweverOftenInterrupted) {
             EXPECT_EQ(session.stats().rays.reflected, rays.reflected);
             EXPECT_EQ(session.stats().rays.refracted, rays.refracted);
             EXPECT_EQ(session.stats().rays.shadow, rays.shadow);
+        }
+    }
+}
+
+// With a ceiling that a single tile breaks, and quanta far shorter than a tile takes, the work still ends.
+TEST(OnePicture, HoweverOftenInterruptedWithLittleMemory) {
+    for (const auto& scene : {still_life(), instances()}) {
+        const scene::Image reference = finished(scene).picture(true);
+        for (std::uint64_t seed = 0; seed < 8; ++seed) {
+            SCOPED_TRACE(seed);
+            scene::Scene other = scene;
+            other.settings.threads = 1 + static_cast<int>(seed % 2);
+            other.settings.order = seed & 2 ? scene::Order::tiles : scene::Order::even;
+            other.settings.memory = seed & 1 ? 1 : 400'000;
+            other.settings.keep = !(seed & 4);
+            Session session = opened(other);
+            interrupt(session, seed);
+            EXPECT_TRUE(same_picture(reference, session.picture(true)));
         }
     }
 }
