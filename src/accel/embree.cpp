@@ -10,12 +10,13 @@
 #include "accel/accelerator.h"
 #include "accel/float_bounds.h"
 #include "accel/parts.h"
+#include "accel/ray_packet.h"
 #include "accel/triangle_clusters.h"
 
 namespace crescente::accel {
 namespace {
 
-constexpr int packet = 16;
+constexpr int packet = packet_size;
 constexpr double reach = 4;                    // farthest origin in scene radii, in each coordinate
 constexpr double float_unit = 1.0 / (1 << 24);  // half an ulp of float, relative
 constexpr double box_margin = 64 * float_unit;  // of the scene's radius
@@ -83,11 +84,17 @@ struct Query {
     // The ray in the space of the mesh instance that was last tried, for each lane.
     std::uint32_t local_instance[packet];
     MeshRay local[packet];
-    // The same rays by component, for shapes that are tried against a whole packet. `end` is the nearer of t_max and the hit.
-    alignas(64) double ox[packet], oy[packet], oz[packet], dx[packet], dy[packet], dz[packet], start[packet], end[packet];
+    RayPacket packet_rays;   // the same rays by component
+    MeshPacket mesh_packet;  // all of them in the space of the mesh instance that was last tried
+
+    unsigned active = 0;     // lanes that are traced at all
 };
 
-Lanes load(const double* values) { return *reinterpret_cast<const Lanes*>(values); }
+unsigned bits_of_lanes(const int* valid) {
+    unsigned bits = 0;
+    for (int lane = 0; lane < packet; ++lane) bits |= valid[lane] ? 1u << lane : 0u;
+    return bits;
+}
 
 class Embree final : public Accelerator {
 public:
@@ -108,7 +115,8 @@ private:
     template <bool shadows>
     void trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const;
     bool clip(const Ray& ray, double& from, double& to) const;
-    unsigned sphere_lanes(const Query& query, const Instance& instance, double radius, const int* valid, double* t) const;
+    bool try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid,
+                    auto&& visit) const;
     const MeshRay& mesh_ray(Query& query, unsigned lane, std::uint32_t instance) const;
     void attach(RTCScene scene, PrimitiveSet& set);
     std::uint32_t instance_of(const RTCIntersectContext& context, const Primitive& primitive) const {
@@ -281,32 +289,35 @@ const MeshRay& Embree::mesh_ray(Query& query, unsigned lane, std::uint32_t insta
     return query.local[lane];
 }
 
-// Which lanes of a packet meet a sphere, as bits; t holds the parameter of the nearest crossing in the lane's reach.
-unsigned Embree::sphere_lanes(const Query& query, const Instance& instance, double radius, const int* valid, double* t) const {
-    const Affine& m = instance.to_local;
-    unsigned found = 0;
-    for (int first = 0; first < packet; first += lane_count) {
-        geometry::Point3<Lanes> o{load(query.ox + first), load(query.oy + first), load(query.oz + first)};
-        geometry::Point3<Lanes> d{load(query.dx + first), load(query.dy + first), load(query.dz + first)};
-        if (instance.translation) {
-            o = {o.x + m.origin.x, o.y + m.origin.y, o.z + m.origin.z};
-        } else {  // as Affine::point and Affine::vector
-            o = {m.x.x * o.x + m.y.x * o.y + m.z.x * o.z + m.origin.x, m.x.y * o.x + m.y.y * o.y + m.z.y * o.z + m.origin.y,
-                 m.x.z * o.x + m.y.z * o.y + m.z.z * o.z + m.origin.z};
-            d = {m.x.x * d.x + m.y.x * d.y + m.z.x * d.z, m.x.y * d.x + m.y.y * d.y + m.z.y * d.z, m.x.z * d.x + m.y.z * d.y + m.z.z * d.z};
+// Tries a sphere or a cluster against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
+// ray at a time is better, or the only way; then nothing was done.
+bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid,
+                        auto&& visit) const {
+    const Instance& instance = instances_[index];
+    const unsigned active = bits_of_lanes(valid);
+    alignas(64) double t[packet];
+    if (primitive.is_cluster) {
+        const TriangleCluster& cluster = set.clusters[primitive.index];
+        if (!rays_outnumber_triangles(active, cluster)) return false;
+        if (query.mesh_packet.instance != index) query.mesh_packet.prepare(query.packet_rays, query.active, instance, index);
+        if (!query.mesh_packet.usable) return false;
+        for (int k = 0; k < cluster.count; ++k) {
+            for (unsigned lanes = triangle_lanes(query.mesh_packet, query.packet_rays, active, cluster, k, t); lanes; lanes &= lanes - 1) {
+                const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+                visit(lane, Hit{t[lane], index, cluster.triangle[k]});
+            }
         }
-        const auto [enter, leave] = geometry::inside_sphere(radius, o, d);
-        const Lanes start = load(query.start + first), end = load(query.end + first);
-        const LaneMask enters = (enter > start) & (enter <= end), leaves = (leave > start) & (leave <= end);
-        const LaneMask hit = (enter < leave) & (enters | leaves);
-        *reinterpret_cast<Lanes*>(t + first) = enters ? enter : leave;
-        found |= bits_of(hit) << first;
+        query.counts.shape_tests += static_cast<unsigned>(cluster.count) * packet;
+        return true;
     }
-    for (unsigned rest = found; rest; rest &= rest - 1) {
-        const int lane = __builtin_ctz(rest);
-        if (!valid[lane] || !std::isfinite(t[lane])) found ^= 1u << lane;
+    const auto* sphere = std::get_if<geometry::Sphere>(instance.shape);
+    if (!sphere) return false;
+    for (unsigned lanes = sphere_lanes(query.packet_rays, active, instance, sphere->radius, t); lanes; lanes &= lanes - 1) {
+        const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+        visit(lane, Hit{t[lane], index, 0});
     }
-    return found;
+    query.counts.shape_tests += packet;
+    return true;
 }
 
 void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const {
@@ -319,20 +330,15 @@ void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const 
     RTCHitN* hits = RTCRayHitN_HitN(arguments.rayhit, arguments.N);
     const auto update = [&](unsigned i, unsigned lane, const Hit& hit) {
         query.hits[lane] = hit;
-        query.end[lane] = hit.t;
+        query.packet_rays.end[lane] = hit.t;
         const double end = hit.t - query.farther[lane];
         RTCRayN_tfar(rays, arguments.N, i) = round_up(end + 4 * box_margin * (radius_ + std::abs(end)));
         RTCHitN_geomID(hits, arguments.N, i) = 0;
     };
-    if (const auto* sphere = std::get_if<geometry::Sphere>(instance.shape); sphere && arguments.N == packet) {
-        alignas(64) double t[packet];
-        query.counts.shape_tests += packet;
-        for (unsigned lanes = sphere_lanes(query, instance, sphere->radius, arguments.valid, t); lanes; lanes &= lanes - 1) {
-            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-            if (const Hit hit{t[lane], index, 0}; before(hit, query.hits[lane])) update(lane, lane, hit);
-        }
-        return;
-    }
+    const auto nearer = [&](unsigned lane, const Hit& hit) {
+        if (before(hit, query.hits[lane])) update(lane, lane, hit);
+    };
+    if (arguments.N == packet && try_packet(query, set, primitive, index, arguments.valid, nearer)) return;
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
         const unsigned lane = RTCRayN_id(rays, arguments.N, i);
@@ -354,15 +360,17 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
     const Primitive primitive = set.primitives[arguments.primID];
     const std::uint32_t index = instance_of(query.context, primitive);
     const Instance& instance = instances_[index];
-    if (const auto* sphere = std::get_if<geometry::Sphere>(instance.shape); sphere && arguments.N == packet && instance.opaque) {
-        alignas(64) double t[packet];
-        query.counts.shape_tests += packet;
-        for (unsigned lanes = sphere_lanes(query, instance, sphere->radius, arguments.valid, t); lanes; lanes &= lanes - 1) {
-            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-            query.hits[lane] = {t[lane], index, 0};
-            RTCRayN_tfar(arguments.ray, arguments.N, lane) = -INFINITY;
-        }
-        return;
+    // Of a sphere that is not opaque both crossings count: one ray at a time.
+    if (arguments.N == packet && (instance.opaque || primitive.is_cluster)) {
+        const auto block_or_cross = [&](unsigned lane, const Hit& hit) {
+            if (instance.opaque) {
+                query.hits[lane] = hit;
+                RTCRayN_tfar(arguments.ray, arguments.N, lane) = -INFINITY;
+            } else {
+                query.crossings->push_back({query.first_ray + lane, hit});
+            }
+        };
+        if (try_packet(query, set, primitive, index, arguments.valid, block_or_cross)) return;
     }
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
@@ -419,6 +427,8 @@ void Embree::trace_packet(Query& query, int count) const {
         }
     }();
     query.farther = moved;
+    query.active = 0;
+    query.mesh_packet.instance = none;
     const double margin = 4 * box_margin * radius_;
     for (int lane = 0; lane < packet; ++lane) {
         valid[lane] = 0;
@@ -442,9 +452,8 @@ void Embree::trace_packet(Query& query, int count) const {
         }
         if (max_component(abs(origin)) > largest_coordinate || max_component(abs(from.direction)) > largest_coordinate) continue;
         valid[lane] = -1;
-        query.ox[lane] = from.origin.x, query.oy[lane] = from.origin.y, query.oz[lane] = from.origin.z;
-        query.dx[lane] = from.direction.x, query.dy[lane] = from.direction.y, query.dz[lane] = from.direction.z;
-        query.start[lane] = from.t_min, query.end[lane] = t_max;
+        query.active |= 1u << lane;
+        query.packet_rays.set(lane, from, t_max);
         ray.org_x[lane] = static_cast<float>(origin.x);
         ray.org_y[lane] = static_cast<float>(origin.y);
         ray.org_z[lane] = static_cast<float>(origin.z);

@@ -17,6 +17,7 @@ struct Leaves {
 
 TriangleCluster make_cluster(const geometry::Mesh& mesh, const RTCBuildPrimitive* primitives, std::size_t count) {
     TriangleCluster cluster;
+    cluster.count = static_cast<int>(count);
     const Vec3 filler = mesh.positions[mesh.triangles[primitives[0].primID][0]];
     for (int lane = 0; lane < cluster_size; ++lane) {
         const bool used = static_cast<std::size_t>(lane) < count;

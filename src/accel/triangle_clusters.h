@@ -17,7 +17,8 @@ inline constexpr int cluster_size = lane_count;
 
 struct TriangleCluster {
     geometry::Point3<Lanes> p, q, r;  // corners; unused lanes repeat the first corner of the first triangle: degenerate, never hit
-    std::uint32_t triangle[cluster_size];
+    std::uint32_t triangle[cluster_size];  // none in unused lanes
+    int count = 0;                         // lanes that are used, the first ones
 };
 
 // Clusters of neighbours, from the leaves of a surface area hierarchy built by Embree. `device` must not be null; finite coordinates
@@ -43,7 +44,7 @@ inline unsigned hit_lanes(const TriangleCluster& cluster, const MeshRay& local, 
     const LaneMask inside = ((sides.u >= 0.0) & (sides.v >= 0.0) & (sides.w >= 0.0)) | ((sides.u <= 0.0) & (sides.v <= 0.0) & (sides.w <= 0.0));
     unsigned lanes = bits_of(inside);
     if (!lanes) return 0;  // most clusters that are tried
-    t = geometry::triangle_parameter(sides, cluster.p, cluster.q, cluster.r, local.view, ray.origin, ray.direction);
+    t = geometry::triangle_parameter(sides, cluster.p, cluster.q, cluster.r, local.view, geometry::point3(ray.origin), geometry::point3(ray.direction));
     lanes &= bits_of((t > ray.t_min) & (t <= t_max));
     for (unsigned rest = lanes; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);

@@ -21,12 +21,11 @@ Bounds Mesh::part_bounds(std::uint32_t part) const {
 std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) const {
     const auto& triangle = triangles[part];
     const Vec3 p = positions[triangle[0]], q = positions[triangle[1]], r = positions[triangle[2]];
-    const auto corner = [](Vec3 v) { return Point3<double>{v.x, v.y, v.z}; };
     const RayView view(ray.origin, ray.direction);
-    const TriangleSides<double> sides = triangle_sides(corner(p), corner(q), corner(r), view);
+    const TriangleSides<double> sides = triangle_sides(point3(p), point3(q), point3(r), view);
     const bool inside = (sides.u >= 0 && sides.v >= 0 && sides.w >= 0) || (sides.u <= 0 && sides.v <= 0 && sides.w <= 0);
     if (!inside) return std::nullopt;
-    const double t = triangle_parameter(sides, corner(p), corner(q), corner(r), view, ray.origin, ray.direction);
+    const double t = triangle_parameter(sides, point3(p), point3(q), point3(r), view, point3(ray.origin), point3(ray.direction));
     if (!(t > ray.t_min && t <= ray.t_max) || !confirmed(sides, p, q, r, ray.origin, ray.direction)) return std::nullopt;
     return ShapeHit{t, part};
 }

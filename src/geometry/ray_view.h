@@ -23,41 +23,55 @@ struct ViewPoint {
     T depth;  // along the axis of the ray's largest component, from its origin
 };
 
-class RayView {
+// T = double: one ray. T = a vector of doubles: several rays with the same axis.
+template <class T>
+class RayViewOf {
 public:
-    RayView() = default;
-    RayView(math::Vec3 origin, math::Vec3 direction) : origin_(origin) {
-        const math::Vec3 size = abs(direction);
-        axis_ = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-        inverse_ = 1.0 / direction[axis_];
-        shear_x_ = direction[next(axis_)] * inverse_;
-        shear_y_ = direction[next(next(axis_))] * inverse_;
+    RayViewOf() = default;
+    RayViewOf(const Point3<T>& origin, const Point3<T>& direction, int axis) : origin_(origin), axis_(axis) {
+        inverse_ = 1.0 / pick(direction, axis_);
+        shear_x_ = pick(direction, next(axis_)) * inverse_;
+        shear_y_ = pick(direction, next(next(axis_))) * inverse_;
     }
 
-    template <class T>
-    ViewPoint<T> operator()(const Point3<T>& p) const {
-        const int i = next(axis_), j = next(i);
-        const T depth = pick(p, axis_) - origin_[axis_];
-        return {(pick(p, i) - origin_[i]) - shear_x_ * depth, (pick(p, j) - origin_[j]) - shear_y_ * depth, depth};
+    // Of the largest component, which is the view's axis.
+    static int axis_of(math::Vec3 direction) {
+        const math::Vec3 size = abs(direction);
+        return size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
     }
-    ViewPoint<double> operator()(math::Vec3 p) const { return (*this)(Point3<double>{p.x, p.y, p.z}); }
+
+    // One of the two, the ray and the point, is of one lane, or both are of as many.
+    template <class P, class V = decltype(P{} - T{})>
+    ViewPoint<V> operator()(const Point3<P>& p) const {
+        const int i = next(axis_), j = next(i);
+        const V depth = pick(p, axis_) - pick(origin_, axis_);
+        return {(pick(p, i) - pick(origin_, i)) - shear_x_ * depth, (pick(p, j) - pick(origin_, j)) - shear_y_ * depth, depth};
+    }
+    ViewPoint<T> operator()(math::Vec3 p) const { return (*this)(Point3<double>{p.x, p.y, p.z}); }
 
     // The ray parameter of a depth.
-    template <class T>
-    T parameter(const T& depth) const {
+    template <class V>
+    V parameter(const V& depth) const {
         return depth * inverse_;
     }
 
 private:
     static constexpr int next(int axis) { return axis == 2 ? 0 : axis + 1; }
-    template <class T>
-    static const T& pick(const Point3<T>& p, int axis) {
+    template <class P>
+    static const P& pick(const Point3<P>& p, int axis) {
         return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
     }
 
-    math::Vec3 origin_;
+    Point3<T> origin_{};
     int axis_ = 0;
-    double inverse_ = 0, shear_x_ = 0, shear_y_ = 0;
+    T inverse_{}, shear_x_{}, shear_y_{};
+};
+
+class RayView : public RayViewOf<double> {
+public:
+    RayView() = default;
+    RayView(math::Vec3 origin, math::Vec3 direction)
+        : RayViewOf({origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, axis_of(direction)) {}
 };
 
 // Whether the edge crosses the half axis y = 0, x > 0. An outline encloses the ray if an odd number of its edges do. The end with y <= 0

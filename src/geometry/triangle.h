@@ -19,24 +19,28 @@ struct TriangleSides {
     T depth_p, depth_q, depth_r;
 };
 
-template <class T>
-inline TriangleSides<T> triangle_sides(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const RayView& view) {
-    const ViewPoint<T> a = view(p), b = view(q), c = view(r);
+// P and T are double or a vector of doubles: one ray and one triangle, one ray and several triangles, or several rays and one
+// triangle.
+template <class P, class T, class V = decltype(P{} - T{})>
+inline TriangleSides<V> triangle_sides(const Point3<P>& p, const Point3<P>& q, const Point3<P>& r, const RayViewOf<T>& view) {
+    const ViewPoint<V> a = view(p), b = view(q), c = view(r);
     return {c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x, a.depth, b.depth, c.depth};
 }
 
 // The ray's parameter in the triangle's plane; NaN if the triangle has no area.
-template <class T>
-inline T triangle_parameter(const TriangleSides<T>& sides, const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const RayView& view,
-                            math::Vec3 origin, math::Vec3 direction) {
-    const T ex = q.x - p.x, ey = q.y - p.y, ez = q.z - p.z;
-    const T fx = r.x - p.x, fy = r.y - p.y, fz = r.z - p.z;
-    const T nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-    const T t = ((p.x - origin.x) * nx + (p.y - origin.y) * ny + (p.z - origin.z) * nz) / (nx * direction.x + ny * direction.y + nz * direction.z);
-    const T s0 = view.parameter(sides.depth_p), s1 = view.parameter(sides.depth_q), s2 = view.parameter(sides.depth_r);
-    const T low = s0 < s1 ? s0 : s1, high = s0 < s1 ? s1 : s0;
-    return parameter_between(t, T(s2 < low ? s2 : low), T(s2 > high ? s2 : high));
+template <class P, class T, class V>
+inline V triangle_parameter(const TriangleSides<V>& sides, const Point3<P>& p, const Point3<P>& q, const Point3<P>& r, const RayViewOf<T>& view,
+                            const Point3<T>& origin, const Point3<T>& direction) {
+    const P ex = q.x - p.x, ey = q.y - p.y, ez = q.z - p.z;
+    const P fx = r.x - p.x, fy = r.y - p.y, fz = r.z - p.z;
+    const P nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
+    const V t = ((p.x - origin.x) * nx + (p.y - origin.y) * ny + (p.z - origin.z) * nz) / (nx * direction.x + ny * direction.y + nz * direction.z);
+    const V s0 = view.parameter(sides.depth_p), s1 = view.parameter(sides.depth_q), s2 = view.parameter(sides.depth_r);
+    const V low = s0 < s1 ? s0 : s1, high = s0 < s1 ? s1 : s0;
+    return parameter_between(t, V(s2 < low ? s2 : low), V(s2 > high ? s2 : high));
 }
+
+inline Point3<double> point3(math::Vec3 v) { return {v.x, v.y, v.z}; }
 
 // Whether the triangle has an area that is more than rounding.
 inline bool has_area(math::Vec3 p, math::Vec3 q, math::Vec3 r) {
