@@ -120,10 +120,16 @@ bool shines(const Scene& scene) {
 
 }  // namespace
 
+bool can_be_framed(const math::Bounds& everything) {
+    constexpr double largest = 1e100;  // metres
+    return everything.bounded() && everything.largest_coordinate() < largest;
+}
+
 void add_studio(Scene& scene) {
     const Bounds box = bounds(scene);
     const Vec3 center = box.bounded() ? box.center() : Vec3{};
-    const double radius = box.bounded() ? std::max(length(box.diagonal()) / 2, 1e-9) : 1.0;
+    // Never so small that the camera's place could not be told from the target's.
+    const double radius = box.bounded() ? std::max({length(box.diagonal()) / 2, 1e-9, 1e-9 * box.largest_coordinate()}) : 1.0;
     const bool own_camera = scene.camera.has_value();
     const Vec3 towards_camera = own_camera ? normalize(scene.camera->position - scene.camera->target) : direction_of(32, 22);
     if (!own_camera) {

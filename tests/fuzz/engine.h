@@ -51,8 +51,8 @@ inline bool is_small(const scene::Scene& scene) {
 
 // Draws a valid, small scene in a small picture, to the end or for a second.
 inline void draw(scene::Scene scene) {
-    if (!scene.camera) {
-        if (!scene::bounds(scene).bounded()) return;  // the program refuses it: there is nothing to frame
+    if (!scene.camera || (scene.lights.empty() && !scene.environment)) {
+        if (!scene::can_be_framed(scene::bounds(scene))) return;  // the program refuses it
         scene::add_studio(scene);
         require(scene.camera.has_value());
         require(scene::validate(scene, "studio").empty());

@@ -38,8 +38,9 @@ bool concerns_settings_together(const Problem& problem) { return problem.place =
 Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
     if (const auto placed = place_camera(request.view, scene); !placed) return placed;
     if (!scene.camera || (request.studio && !lit(scene))) {
-        if (!scene::bounds(scene).bounded()) {
-            return failure(ErrorKind::input, {request.file, "", "the scene is empty: there is nothing to frame", ""});
+        if (const auto box = scene::bounds(scene); !scene::can_be_framed(box)) {
+            const char* reason = box.empty() ? "the scene is empty: there is nothing to frame" : "the scene is too large to be framed or lit";
+            return failure(ErrorKind::input, {request.file, "", reason, ""});
         }
         if (request.studio) {
             scene::add_studio(scene);

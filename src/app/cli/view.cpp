@@ -5,6 +5,7 @@
 
 #include "app/cli/quantities.h"
 #include "base/spelling.h"
+#include "scene/studio.h"
 
 namespace crescente::app {
 namespace {
@@ -123,7 +124,7 @@ Expected<void> place_camera(const View& view, scene::Scene& scene) {
     } else {
         const auto& named = std::get<NamedView>(*view.place);
         const math::Bounds box = scene::bounds(scene);
-        if (!box.bounded() || !(length(box.diagonal()) > 0)) {
+        if (!scene::can_be_framed(box) || !(length(box.diagonal()) > 0)) {
             return failure(ErrorKind::usage, {"", "--camera", "a named view needs a scene with an extent", "give six numbers"});
         }
         const Vec3 from = math::normalize(named.from);
