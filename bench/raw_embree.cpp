@@ -80,6 +80,32 @@ RawEmbree::Packets RawEmbree::pack(std::span<const accel::Ray> rays, bool cohere
     return packets;
 }
 
+std::vector<RTCRayHit> RawEmbree::pack_singly(std::span<const accel::Ray> rays) {
+    std::vector<RTCRayHit> packed(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        RTCRayHit& to = packed[i];
+        set(&to.ray.org_x, rays[i].origin);
+        set(&to.ray.dir_x, rays[i].direction);
+        to.ray.tnear = static_cast<float>(rays[i].t_min);
+        to.ray.tfar = static_cast<float>(rays[i].t_max);
+        to.ray.mask = ~0u;
+        to.hit.geomID = to.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    }
+    return packed;
+}
+
+std::size_t RawEmbree::nearest_singly(std::span<const RTCRayHit> rays) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    std::size_t found = 0;
+    for (const RTCRayHit& packed : rays) {
+        RTCRayHit ray = packed;
+        rtcIntersect1(scene_.get(), &context, &ray);
+        found += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    }
+    return found;
+}
+
 std::size_t RawEmbree::nearest(const Packets& packets) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

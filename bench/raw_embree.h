@@ -22,8 +22,11 @@ public:
     };
     static Packets pack(std::span<const accel::Ray> rays, bool coherent);
 
-    // Both return the number of rays that met something.
+    static std::vector<RTCRayHit> pack_singly(std::span<const accel::Ray> rays);
+
+    // All return the number of rays that met something.
     std::size_t nearest(const Packets& packets) const;
+    std::size_t nearest_singly(std::span<const RTCRayHit> rays) const;
     std::size_t occluded(const Packets& packets) const;
 
 private:

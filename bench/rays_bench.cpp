@@ -34,7 +34,7 @@ struct Bench {
         scene::for_each_appearance(scene, [&](std::uint32_t node, const math::Affine& to_world, const auto&) {
             instances.emplace_back(scene.shapes[scene.nodes[node].shape.value].shape, to_world, true);
         });
-        ours = std::move(accel::make_embree(instances, 0).value());
+        ours = std::move(accel::make_embree(instances).value());
         raw = std::make_unique<RawEmbree>(instances);
         make_rays();
     }
@@ -109,6 +109,13 @@ void run_raw(benchmark::State& state, const Bench& bench, const Rays& rays, bool
     count_rays(state, packets.nearest.size() * 16, hit);
 }
 
+void run_raw_singly(benchmark::State& state, const Bench& bench, const Rays& rays) {
+    const auto packed = RawEmbree::pack_singly(rays.rays);
+    std::size_t hit = 0;
+    for (auto _ : state) hit = bench.raw->nearest_singly(packed);
+    count_rays(state, packed.size(), hit);
+}
+
 // Growth of the whole level and the picture: camera rays through all corners of pixels, shading, film.
 void run_session(benchmark::State& state, const Bench& bench) {
     std::uint64_t rays = 0;
@@ -140,6 +147,8 @@ void add(const std::string& name, const std::shared_ptr<Bench>& bench) {
     };
     pair("camera", bench->camera, false);
     pair("reflected", bench->reflected, false);
+    benchmark::RegisterBenchmark((name + "/reflected/embree singly").c_str(), [=](auto& s) { run_raw_singly(s, *bench, bench->reflected); })
+        ->Unit(benchmark::kMillisecond);
     pair("shadow", bench->shadow, true);
     benchmark::RegisterBenchmark((name + "/camera/session").c_str(), [=](auto& s) { run_session(s, *bench); })->Unit(benchmark::kMillisecond);
 }
