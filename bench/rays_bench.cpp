@@ -4,11 +4,9 @@
 
 #include <memory>
 
-#include "accel/accelerator.h"
 #include "raw_embree.h"
-#include "render/camera_rays.h"
 #include "render/session.h"
-#include "scene/hierarchy.h"
+#include "render/world.h"
 #include "scenes.h"
 
 namespace crescente::bench {
@@ -31,30 +29,26 @@ struct Rays {
 struct Bench {
     explicit Bench(scene::Scene from) : scene(std::move(from)) {
         scene.settings.width = scene.settings.height = edge;
-        scene::for_each_appearance(scene, [&](std::uint32_t node, const math::Affine& to_world, const auto&) {
-            instances.emplace_back(scene.shapes[scene.nodes[node].shape.value].shape, to_world, true);
-        });
-        ours = std::move(accel::make_embree(instances).value());
-        raw = std::make_unique<RawEmbree>(instances);
+        world = std::move(render::world_of(scene).value());
+        raw = std::make_unique<RawEmbree>(world->instances);
         make_rays();
     }
 
     // Pixel after pixel in blocks of 4 x 4; where the camera ray hits, its mirror image and the way to the first light.
     void make_rays() {
-        const render::CameraRays view(*scene.camera, edge, edge);
         for (int tile = 0; tile < edge * edge / 16; ++tile) {
             for (int i = 0; i < 16; ++i) {
                 const int x = tile % (edge / 4) * 4 + i % 4, y = tile / (edge / 4) * 4 + i / 4;
-                camera.rays.push_back(view.through(x + 0.5, y + 0.5));
+                camera.rays.push_back(world->camera.through(x + 0.5, y + 0.5));
             }
         }
         std::vector<Hit> hits(camera.rays.size());
         accel::TestCounts counts;
-        ours->nearest(camera.rays, hits, Coherence::coherent, counts);
+        world->accelerator->nearest(camera.rays, hits, Coherence::coherent, counts);
         const Vec3 light = scene.lights.front().position;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!hits[i].found()) continue;
-            const accel::Instance& instance = instances[hits[i].instance];
+            const accel::Instance& instance = world->instances[hits[i].instance];
             const Vec3 at = camera.rays[i].at(hits[i].t), in = camera.rays[i].direction;
             const auto surface = geometry::surface(*instance.shape, hits[i].primitive, instance.to_local.point(at));
             const Vec3 outward = normalize(instance.to_world.vector(surface.normal));  // rigid transforms only
@@ -67,8 +61,7 @@ struct Bench {
     }
 
     scene::Scene scene;
-    std::vector<accel::Instance> instances;
-    std::unique_ptr<accel::Accelerator> ours;
+    std::unique_ptr<render::World> world;
     std::unique_ptr<RawEmbree> raw;
     Rays camera{{}, Coherence::coherent}, reflected{{}, Coherence::incoherent}, shadow{{}, Coherence::coherent};
 };
@@ -94,8 +87,8 @@ void run_ours(benchmark::State& state, const Bench& bench, const Rays& rays, boo
             const auto some = std::span(rays.rays).subspan(first, std::min(batch, rays.rays.size() - first));
             const auto into = std::span(hits).first(some.size());
             accel::TestCounts counts;
-            if (shadows) bench.ours->shadow(some, into, crossings, rays.coherence, counts);
-            else bench.ours->nearest(some, into, rays.coherence, counts);
+            if (shadows) bench.world->accelerator->shadow(some, into, crossings, rays.coherence, counts);
+            else bench.world->accelerator->nearest(some, into, rays.coherence, counts);
             hit += found(into);
         }
     }
