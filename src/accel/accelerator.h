@@ -51,7 +51,7 @@ struct KayKajiyaOptions {
 };
 std::unique_ptr<Accelerator> make_linear(std::span<const Instance> instances);
 std::unique_ptr<Accelerator> make_kay_kajiya(std::span<const Instance> instances, const KayKajiyaOptions& options);
-// threads: for the build, 0: all. Error: resource, if Embree cannot get the memory.
-Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances, int threads);
+// Built on all cores. Error: resource, if Embree cannot get the memory.
+Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances);
 
 }  // namespace crescente::accel

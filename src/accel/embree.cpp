@@ -100,7 +100,7 @@ class Embree final : public Accelerator {
 public:
     explicit Embree(std::span<const Instance> instances) : instances_(instances) {}
 
-    Expected<void> build(int threads);
+    Expected<void> build();
     void nearest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, TestCounts& counts) const override;
     void shadow(std::span<const Ray> rays, std::span<Hit> occluders, std::vector<Crossing>& crossings, Coherence coherence,
                 TestCounts& counts) const override;
@@ -137,8 +137,9 @@ private:
     bool empty_ = true;
 };
 
-Expected<void> Embree::build(int threads) {
-    device_.reset(rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : ""));
+Expected<void> Embree::build() {
+    // Not told how many threads: Embree would cap oneTBB for the whole process, other sessions included.
+    device_.reset(rtcNewDevice(""));
     if (!device_) return failure(ErrorKind::resource, {"", "", "Embree cannot be started on this machine", ""});
 
     std::vector<Bounds> boxes(instances_.size());
@@ -532,9 +533,9 @@ std::size_t Embree::bytes() const {
 
 }  // namespace
 
-Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances, int threads) {
+Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances) {
     auto embree = std::make_unique<Embree>(instances);
-    if (auto built = embree->build(threads); !built) return tl::unexpected(built.error());
+    if (auto built = embree->build(); !built) return tl::unexpected(built.error());
     return embree;
 }
 

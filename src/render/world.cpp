@@ -10,7 +10,7 @@ Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const a
             return accel::make_kay_kajiya(instances, {settings.octant_rejection, settings.priority_queue});
         case scene::AcceleratorKind::embree: break;
     }
-    return accel::make_embree(instances, settings.threads);
+    return accel::make_embree(instances);
 }
 
 }  // namespace

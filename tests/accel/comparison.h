@@ -12,8 +12,8 @@ namespace crescente::accel::testing {
 
 using Factory = std::function<std::unique_ptr<Accelerator>(std::span<const Instance>)>;
 
-inline std::unique_ptr<Accelerator> embree(std::span<const Instance> instances, int threads = 0) {
-    auto made = make_embree(instances, threads);
+inline std::unique_ptr<Accelerator> embree(std::span<const Instance> instances) {
+    auto made = make_embree(instances);
     return made ? std::move(*made) : nullptr;
 }
 
