@@ -80,6 +80,13 @@ void problems(Archive& a, Problems& v) {
 }
 
 template <class Archive>
+void material(Archive& a, scene::Material& v) {
+    auto& m = std::get<scene::PhysicalMaterial>(v.model);
+    value(a, v.name), value(a, m.base_color), value(a, m.metallic), value(a, m.roughness), value(a, m.emissive), value(a, m.ior);
+    value(a, m.transmission), value(a, m.attenuation), value(a, m.opacity), value(a, m.double_sided);
+}
+
+template <class Archive>
 void light(Archive& a, scene::Light& v) {
     value(a, v.name), value(a, v.kind), value(a, v.position), value(a, v.direction), value(a, v.color), value(a, v.intensity);
     value(a, v.inner_angle), value(a, v.outer_angle), value(a, v.gradient), value(a, v.exponent), value(a, v.falloff);
@@ -100,7 +107,7 @@ void loaded(Archive& a, Loaded& v) {
     problems(a, v.warnings);
     value(a, s.name), value(a, s.unit.name), value(a, s.unit.metres);
     list(a, s.shapes, [&](scene::NamedShape& one) { shape(a, one); });
-    list(a, s.materials, [&](scene::Material& m) { value(a, m.name), value(a, std::get<scene::PhysicalMaterial>(m.model)); });
+    list(a, s.materials, [&](scene::Material& m) { material(a, m); });
     list(a, s.nodes, [&](scene::Node& n) {
         value(a, n.name), value(a, n.transform), value(a, n.shape), array(a, n.materials), array(a, n.children), value(a, n.visible);
     });
