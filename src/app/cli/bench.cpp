@@ -34,7 +34,7 @@ struct Row {
 };
 constexpr Row rows[] = {
     {"embree", [](scene::Settings& s) { s.accelerator = AcceleratorKind::embree; }},
-    {"embree, no shadow cache", [](scene::Settings& s) { s.accelerator = AcceleratorKind::embree, s.shadow_cache = false; }},
+    {"embree, shadow cache", [](scene::Settings& s) { s.accelerator = AcceleratorKind::embree, s.shadow_cache = true; }},
     {"embree, shortcut exact",
      [](scene::Settings& s) { s.accelerator = AcceleratorKind::embree, s.subpixel_shortcut = SubpixelShortcut::exact; }},
     {"embree, shortcut trust",
@@ -44,7 +44,7 @@ constexpr Row rows[] = {
      [](scene::Settings& s) { s.accelerator = AcceleratorKind::kay_kajiya, s.octant_rejection = false; }},
     {"kay-kajiya, no priority queue",
      [](scene::Settings& s) { s.accelerator = AcceleratorKind::kay_kajiya, s.priority_queue = false; }},
-    {"kay-kajiya, no shadow cache", [](scene::Settings& s) { s.accelerator = AcceleratorKind::kay_kajiya, s.shadow_cache = false; }},
+    {"kay-kajiya, shadow cache", [](scene::Settings& s) { s.accelerator = AcceleratorKind::kay_kajiya, s.shadow_cache = true; }},
     {"linear", [](scene::Settings& s) { s.accelerator = AcceleratorKind::linear; }},
 };
 
