@@ -36,7 +36,6 @@ const Variation variations[] = {
     {"Kay-Kajiya, bare", [](Settings& s) { s.accelerator = scene::AcceleratorKind::kay_kajiya, s.octant_rejection = s.priority_queue = false; }},
     {"the other shadow cache", [](Settings& s) { s.shadow_cache = !s.shadow_cache; }},
     {"shadow cache, two threads", [](Settings& s) { s.shadow_cache = true, s.threads = 2; }},
-    {"shadow cache, two threads", [](Settings& s) { s.shadow_cache = true, s.threads = 2; }},
     {"shadow cache, Kay-Kajiya", [](Settings& s) { s.shadow_cache = true, s.accelerator = scene::AcceleratorKind::kay_kajiya; }},
     {"shadow cache, brute force, one tile", [](Settings& s) { s.shadow_cache = true, s.accelerator = scene::AcceleratorKind::linear, s.tile = 4096; }},
     {"sub-pixel shortcut", [](Settings& s) { s.subpixel_shortcut = scene::SubpixelShortcut::exact; }},
