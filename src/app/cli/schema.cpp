@@ -12,7 +12,7 @@ Command add_schema(CLI::App& app) {
     const auto manual = std::make_shared<bool>(false);
     parser->add_flag("--manual", *manual, "Print the reference manual of the fields instead");
     return {parser, [manual](const Invocation&) {
-                std::cout << (*manual ? io::scene_reference() : io::scene_schema()) << std::endl;
+                std::cout << (*manual ? io::scene_reference() : io::scene_schema()) << std::flush;
                 return std::cout ? exit_ok : fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
             }};
 }
