@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -33,6 +34,47 @@ inline Lanes fused_multiply_add(Lanes a, Lanes b, Lanes c) {
 #else
     Lanes result{};
     for (int i = 0; i < lane_count; ++i) result[i] = std::fma(a[i], b[i], c[i]);
+    return result;
+#endif
+}
+
+inline Lanes absolute(Lanes x) { return x < 0.0 ? -x : x; }
+
+// Eight rows become eight columns.
+inline void transpose(Lanes (&rows)[lane_count]) {
+    Lanes pairs[lane_count], quads[lane_count];
+    for (int i = 0; i < lane_count; i += 2) {
+        pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int i = 0; i < lane_count; i += 4) {
+        for (int k = 0; k < 2; ++k) {
+            quads[i + k] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            quads[i + k + 2] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        rows[i] = __builtin_shufflevector(quads[i], quads[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(quads[i], quads[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
+// Of the lanes whose bit is set; infinite if there is none.
+inline double least(const Lanes& x, unsigned lanes) {
+#if defined(__AVX512F__)
+    return _mm512_mask_reduce_min_pd(static_cast<__mmask8>(lanes), reinterpret_cast<__m512d>(x));
+#else
+    double result = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < lane_count; ++i) result = (lanes >> i & 1) && x[i] < result ? x[i] : result;
+    return result;
+#endif
+}
+inline double greatest(const Lanes& x, unsigned lanes) {
+#if defined(__AVX512F__)
+    return _mm512_mask_reduce_max_pd(static_cast<__mmask8>(lanes), reinterpret_cast<__m512d>(x));
+#else
+    double result = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < lane_count; ++i) result = (lanes >> i & 1) && x[i] > result ? x[i] : result;
     return result;
 #endif
 }

@@ -280,24 +280,25 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
 }
 
 bool Growth::grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline) {
-    // A pass takes what exceeds the threshold, in the order in which it was spawned, a chunk at a time; its children queue behind.
+    // Takes what exceeds the threshold in the order in which it was spawned, a chunk at a time; its children queue behind.
     std::vector<Pending> chunk;
-    while (true) {
+    std::size_t kept = 0, next = 0;  // pending[0 .. kept) stays, [next .. end) is still to be looked at
+    bool in_time = true;
+    while (in_time) {
         chunk.clear();
-        std::size_t kept = 0, i = 0;
-        for (; i < pending.size() && chunk.size() < chunk_size; ++i) {
-            if (pending[i].influence > threshold) {
-                chunk.push_back(pending[i]);
+        for (; next < pending.size() && chunk.size() < chunk_size; ++next) {
+            if (pending[next].influence > threshold) {
+                chunk.push_back(pending[next]);
             } else {
-                pending[kept++] = pending[i];
+                pending[kept++] = pending[next];
             }
         }
-        if (chunk.empty()) return true;
-        std::move(pending.begin() + static_cast<std::ptrdiff_t>(i), pending.end(), pending.begin() + static_cast<std::ptrdiff_t>(kept));
-        pending.resize(pending.size() - chunk.size());
+        if (chunk.empty()) break;
         grow(chunk, pending);
-        if (deadline.passed()) return false;
+        in_time = !deadline.passed();
     }
+    pending.erase(pending.begin() + static_cast<std::ptrdiff_t>(kept), pending.begin() + static_cast<std::ptrdiff_t>(next));
+    return in_time;
 }
 
 }  // namespace crescente::render
