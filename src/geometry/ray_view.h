@@ -10,16 +10,13 @@
 #include <limits>
 
 #include "math/exact.h"
-#include "math/lanes.h"
-#include "math/vec.h"
+#include "math/vec_lanes.h"
 
 namespace crescente::geometry {
 
 // Three coordinates of one point (T = double), or of one corner of several triangles (T = a vector of doubles).
 template <class T>
-struct Point3 {
-    T x, y, z;
-};
+using Point3 = math::VecOf<T>;
 
 template <class T>
 struct ViewPoint {
@@ -99,7 +96,7 @@ public:
         const P near = RayViewOf<double>::pick(p, axis_) - origin_[axis_].high, far = RayViewOf<double>::pick(p, axis_) - origin_[axis_].low;
         const auto shear = [&](const Interval& s, P& low, P& high) {
             const P a = s.low * near, b = s.low * far, c = s.high * near, d = s.high * far;
-            low = lesser(lesser(a, b), lesser(c, d)), high = greater(greater(a, b), greater(c, d));
+            low = math::lesser(math::lesser(a, b), math::lesser(c, d)), high = math::greater(math::greater(a, b), math::greater(c, d));
         };
         P x_low, x_high, y_low, y_high;
         shear(shear_x_, x_low, x_high);
@@ -112,11 +109,6 @@ private:
     struct Interval {
         double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
     };
-    template <class P>
-    static P lesser(const P& a, const P& b) { return a < b ? a : b; }
-    template <class P>
-    static P greater(const P& a, const P& b) { return a > b ? a : b; }
-
     int axis_ = 0;
     Interval origin_[3], shear_x_, shear_y_;
 };

@@ -15,6 +15,7 @@ inline constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
 using LaneMask = decltype(Lanes{} < Lanes{});  // all bits set where true
 
+inline double absolute(double x) { return std::abs(x); }
 inline double square_root(double x) { return std::sqrt(x); }
 inline double fused_multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
 
@@ -59,25 +60,27 @@ inline void transpose(Lanes (&rows)[lane_count]) {
     }
 }
 
+// a where the lane's bit is set, else b.
+inline Lanes blend(unsigned lanes, const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    return reinterpret_cast<Lanes>(_mm512_mask_blend_pd(static_cast<__mmask8>(lanes), reinterpret_cast<__m512d>(b), reinterpret_cast<__m512d>(a)));
+#else
+    Lanes result = b;
+    for (int i = 0; i < lane_count; ++i) result[i] = lanes >> i & 1 ? a[i] : b[i];
+    return result;
+#endif
+}
+
 // Of the lanes whose bit is set; infinite if there is none.
 inline double least(const Lanes& x, unsigned lanes) {
-#if defined(__AVX512F__)
-    return _mm512_mask_reduce_min_pd(static_cast<__mmask8>(lanes), reinterpret_cast<__m512d>(x));
-#else
-    double result = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < lane_count; ++i) result = (lanes >> i & 1) && x[i] < result ? x[i] : result;
-    return result;
-#endif
+    Lanes low = blend(lanes, x, Lanes{} + std::numeric_limits<double>::infinity());
+    const auto fold = [&low](const Lanes& other) { low = other < low ? other : low; };
+    fold(__builtin_shufflevector(low, low, 4, 5, 6, 7, 0, 1, 2, 3));
+    fold(__builtin_shufflevector(low, low, 2, 3, 0, 1, 6, 7, 4, 5));
+    fold(__builtin_shufflevector(low, low, 1, 0, 3, 2, 5, 4, 7, 6));
+    return low[0];
 }
-inline double greatest(const Lanes& x, unsigned lanes) {
-#if defined(__AVX512F__)
-    return _mm512_mask_reduce_max_pd(static_cast<__mmask8>(lanes), reinterpret_cast<__m512d>(x));
-#else
-    double result = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i < lane_count; ++i) result = (lanes >> i & 1) && x[i] > result ? x[i] : result;
-    return result;
-#endif
-}
+inline double greatest(const Lanes& x, unsigned lanes) { return -least(-x, lanes); }
 
 // The true lanes as bits, lane 0 lowest.
 inline unsigned bits_of(LaneMask mask) {
