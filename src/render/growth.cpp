@@ -119,7 +119,7 @@ void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence
         const Lobes& lobes = world_.lobes[node.material];
         const Vec3 normal = normal_of(node), viewer = to_viewer(node);
         lit_.push_back({i, &lobes, node.position, normal, decode_direction(node.geometric_normal), viewer, node.offset, {}, 0,
-                        lobes.emission + reflect_environment(world_.environment, lobes, normal, viewer)});
+                        lobes.emission + reflect_environment(world_.environment, lobes, normal, viewer, node.inside)});
         node.shadowed = node.shadowed || shadows;
     }
     for (std::size_t l = 0; l < lights; ++l) {
@@ -208,12 +208,13 @@ void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& p
         const Node& node = tile_.nodes[i];
         if (node.left_scene() || node.depth >= settings_.depth) continue;
         const Lobes& lobes = world_.lobes[node.material];
-        if (!lobes.mirrors() && !lobes.refracts()) continue;
+        if (!lobes.goes_on()) continue;
         const double cosine = std::clamp(dot(normal_of(node), to_viewer(node)), 0.0, 1.0);
         const ChildWeights weights = child_weights(lobes, cosine, node.inside);
         const Rgb above = influence(tile_, i);
-        if (!is_black(weights.reflected)) pending.push_back({i, weights.reflected, max_component(above * weights.reflected), false});
-        if (!is_black(weights.refracted)) pending.push_back({i, weights.refracted, max_component(above * weights.refracted), true});
+        if (!is_black(weights.reflected)) pending.push_back({i, weights.reflected, max_component(above * weights.reflected), Way::reflected});
+        if (!is_black(weights.refracted)) pending.push_back({i, weights.refracted, max_component(above * weights.refracted), Way::refracted});
+        if (!is_black(lobes.straight)) pending.push_back({i, lobes.straight, max_component(above * lobes.straight), Way::straight});
     }
 }
 
@@ -228,7 +229,10 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         const Vec3 normal = normal_of(node), geometric = decode_direction(node.geometric_normal), viewer = to_viewer(node);
         const double cosine = dot(normal, viewer);
         Ray ray;
-        if (p.refracted) {
+        if (p.way == Way::straight) {
+            ray.direction = -viewer;
+            ++tile_.rays.refracted;
+        } else if (p.way == Way::refracted) {
             const double eta = node.inside ? lobes.ior : 1 / lobes.ior;  // index in front over index behind
             const double sin2 = eta * eta * std::max(0.0, 1 - cosine * cosine);
             ray.direction = normalize(viewer * -eta + normal * (eta * cosine - std::sqrt(std::max(0.0, 1 - sin2))));
@@ -241,7 +245,7 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         }
         ray.origin = start(node.position, geometric, node.offset, ray.direction);
         rays.push_back(ray);
-        seeds.push_back({p.parent, p.weight, static_cast<std::uint8_t>(node.depth + 1), p.refracted});
+        seeds.push_back({p.parent, p.weight, static_cast<std::uint8_t>(node.depth + 1), p.way != Way::reflected});
         coherent = coherent && node.depth == 0;
     }
     hits_.resize(rays.size());
@@ -255,7 +259,11 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         append(rays[i], hits_[i], seeds[i], 0);
         fresh_[i] = first + static_cast<std::uint32_t>(i);
         Node& parent = tile_.nodes[pending[i].parent];
-        (pending[i].refracted ? parent.refracted : parent.reflected) = fresh_[i];
+        switch (pending[i].way) {
+            case Way::reflected: parent.reflected = fresh_[i]; break;
+            case Way::refracted: parent.refracted = fresh_[i]; break;
+            case Way::straight: tile_.straight.emplace(pending[i].parent, fresh_[i]); break;
+        }
     }
     light(fresh_, settings_.level >= scene::Level::shadows, coherence);
     spawn(fresh_, next);
