@@ -149,7 +149,7 @@ void Growth::light_points(bool shadows, Coherence coherence) {
             Node& node = tile_.nodes[p.node[i]];
             const Lobes& lobes = world_.lobes[node.material];
             p.lobes[i] = &lobes;
-            p.sum[i] = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i));
+            p.sum[i] = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
             node.shadowed = node.shadowed || shadows;
         }
     }
@@ -255,11 +255,12 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) const {
         for (int i = 0; i < p.count; ++i) {
             const Node& node = tile_.nodes[p.node[i]];
             const Lobes& lobes = world_.lobes[node.material];
-            if (node.depth >= settings_.depth || !(lobes.mirrors() || lobes.refracts())) continue;
+            if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
             const ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
             const Rgb above = influence(tile_, p.node[i]);
-            if (!is_black(weights.reflected)) pending.push_back({p.node[i], weights.reflected, max_component(above * weights.reflected), false});
-            if (!is_black(weights.refracted)) pending.push_back({p.node[i], weights.refracted, max_component(above * weights.refracted), true});
+            if (!is_black(weights.reflected)) pending.push_back({p.node[i], weights.reflected, max_component(above * weights.reflected), Way::reflected});
+            if (!is_black(weights.refracted)) pending.push_back({p.node[i], weights.refracted, max_component(above * weights.refracted), Way::refracted});
+            if (!is_black(lobes.straight)) pending.push_back({p.node[i], lobes.straight, max_component(above * lobes.straight), Way::straight});
         }
     }
 }
@@ -276,16 +277,17 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         const PointLanes& p = points_[block];
         const Lanes cosine = dot(p.normal, p.viewer);
         Lanes eta = Lanes{} + 1.0;  // index in front over index behind
-        unsigned refracted = 0;
+        unsigned refracted = 0, straight = 0;
         for (int i = 0; i < p.count; ++i) {
             const Pending& from = pending[block * lane_count + i];
             const Node& node = tile_.nodes[from.parent];
             const Lobes& lobes = world_.lobes[node.material];
-            if (from.refracted) {
+            if (from.way == Way::refracted) {
                 refracted |= 1u << i;
                 eta[i] = node.inside ? lobes.ior : 1 / lobes.ior;
             }
-            seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(node.depth + 1), from.refracted});
+            if (from.way == Way::straight) straight |= 1u << i;
+            seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(node.depth + 1), from.way != Way::reflected});
             coherent = coherent && node.depth == 0;
         }
         Vec3Lanes direction = normalize(p.normal * (2.0 * cosine) - p.viewer);
@@ -295,13 +297,14 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         if (refracted) {
             const Lanes zero{}, sin2 = eta * eta * greater(1.0 - cosine * cosine, zero);
             const Vec3Lanes through = normalize(p.normal * (eta * cosine - square_root(greater(1.0 - sin2, zero))) - p.viewer * eta);
-            const auto choose = [refracted](const Lanes& a, const Lanes& b) { return blend(refracted, a, b); };
-            direction = {choose(through.x, direction.x), choose(through.y, direction.y), choose(through.z, direction.z)};
+            direction = blend(refracted, through, direction);
         }
+        if (straight) direction = blend(straight, -p.viewer, direction);
         make_rays(starts(p.position, p.geometric, p.offset, direction), direction, Lanes{} + std::numeric_limits<double>::infinity(),
                   &rays_[block * lane_count]);
-        tile_.rays.refracted += static_cast<unsigned>(__builtin_popcount(refracted));
-        tile_.rays.reflected += static_cast<unsigned>(p.count - __builtin_popcount(refracted));
+        const int through = __builtin_popcount(refracted | straight);
+        tile_.rays.refracted += static_cast<unsigned>(through);
+        tile_.rays.reflected += static_cast<unsigned>(p.count - through);
     }
     rays_.resize(pending.size());
     hits_.resize(rays_.size());
@@ -315,7 +318,11 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
     for (std::size_t i = 0; i < rays_.size(); ++i) {
         fresh_[i] = first + static_cast<std::uint32_t>(i);
         Node& parent = tile_.nodes[pending[i].parent];
-        (pending[i].refracted ? parent.refracted : parent.reflected) = fresh_[i];
+        switch (pending[i].way) {
+            case Way::reflected: parent.reflected = fresh_[i]; break;
+            case Way::refracted: parent.refracted = fresh_[i]; break;
+            case Way::straight: tile_.straight.emplace(pending[i].parent, fresh_[i]); break;
+        }
     }
     gather(fresh_);
     light_points(settings_.level >= scene::Level::shadows, coherence);

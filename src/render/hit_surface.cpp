@@ -16,6 +16,11 @@ struct Carried {
     Vec3Lanes position, geometric, shading;
     Lanes error;  // bound on the distance of position from the true surface, without the rounding of its own coordinates
     std::uint32_t slot[lane_count];
+
+    void put(unsigned lanes, const Vec3Lanes& at, const Vec3Lanes& normal, const Vec3Lanes& shading_normal, const Lanes& bound) {
+        position = blend(lanes, at, position), geometric = blend(lanes, normal, geometric), shading = blend(lanes, shading_normal, shading);
+        error = blend(lanes, bound, error);
+    }
 };
 
 struct RayLanes {
@@ -74,9 +79,7 @@ void at_mesh(const Instance& instance, const geometry::Mesh& mesh, const RayLane
         position = position + place;
         error += 16 * epsilon * max_component(abs(out.origin));
     }
-    const auto put = [lanes](Lanes& a, const Lanes& b) { a = blend(lanes, b, a); };
-    const auto put3 = [&](Vec3Lanes& a, const Vec3Lanes& b) { put(a.x, b.x), put(a.y, b.y), put(a.z, b.z); };
-    put3(to.position, position), put3(to.geometric, geometric), put3(to.shading, shading), put(to.error, error);
+    to.put(lanes, position, geometric, shading, error);
     for (unsigned rest = lanes; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
         to.slot[i] = mesh.slots.empty() ? 0 : mesh.slots[hits[i].primitive];
@@ -86,7 +89,7 @@ void at_mesh(const Instance& instance, const geometry::Mesh& mesh, const RayLane
 // Lanes that met spheres which are only moved.
 void at_spheres(const World& world, const RayLanes& rays, const Hit* hits, unsigned lanes, Carried& to) {
     Vec3Lanes center = rays.origin;
-    Lanes radius = Lanes{} + 1.0, error{};
+    Lanes radius = Lanes{} + 1.0;
     for (unsigned rest = lanes; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
         const Instance& instance = world.instances[hits[i].instance];
@@ -95,11 +98,7 @@ void at_spheres(const World& world, const RayLanes& rays, const Hit* hits, unsig
         to.slot[i] = 0;
     }
     const Vec3Lanes normal = geometry::sphere_normal((rays.origin - center) + rays.direction * rays.t);
-    const Vec3Lanes position = normal * radius + center;
-    error = 4 * epsilon * radius + 16 * epsilon * largest_component(center);
-    const auto put = [lanes](Lanes& a, const Lanes& b) { a = blend(lanes, b, a); };
-    const auto put3 = [&](Vec3Lanes& a, const Vec3Lanes& b) { put(a.x, b.x), put(a.y, b.y), put(a.z, b.z); };
-    put3(to.position, position), put3(to.geometric, normal), put3(to.shading, normal), put(to.error, error);
+    to.put(lanes, normal * radius + center, normal, normal, 4 * epsilon * radius + 16 * epsilon * largest_component(center));
 }
 
 // Any other shape.
