@@ -31,19 +31,21 @@ inline VecOf<T> from_octahedral(const OctahedralPoint<T>& p) {
     return normalize(VecOf<T>{below ? unfolded_a : p.a, below ? unfolded_b : p.b, z});
 }
 
+inline constexpr double octahedral_scale = 32767;  // steps from 0 to 1
+
 inline std::uint32_t pack_octahedral(double a, double b) {
-    const auto quantise = [](double v) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(v * 32767 + (v < 0 ? -0.5 : 0.5)) & 0xffff); };
-    return quantise(a) | quantise(b) << 16;
+    const auto steps = [](double v) {
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v * octahedral_scale + (v < 0 ? -0.5 : 0.5)) & 0xffff);
+    };
+    return steps(a) | steps(b) << 16;
 }
-inline OctahedralPoint<double> unpack_octahedral(std::uint32_t code) {
-    const auto value = [](std::uint32_t bits) { return static_cast<std::int16_t>(bits & 0xffff) / 32767.0; };
-    return {value(code), value(code >> 16)};
-}
+inline double octahedral_a(std::uint32_t code) { return static_cast<std::int16_t>(code & 0xffff); }
+inline double octahedral_b(std::uint32_t code) { return static_cast<std::int16_t>(code >> 16); }
 
 inline std::uint32_t encode_direction(Vec3 n) {
     const OctahedralPoint<double> p = to_octahedral(vec_of(n));
     return pack_octahedral(p.a, p.b);
 }
-inline Vec3 decode_direction(std::uint32_t code) { return vec3(from_octahedral(unpack_octahedral(code))); }
+inline Vec3 decode_direction(std::uint32_t code) { return vec3(from_octahedral(OctahedralPoint<double>{octahedral_a(code) / octahedral_scale, octahedral_b(code) / octahedral_scale})); }
 
 }  // namespace crescente::math

@@ -122,8 +122,7 @@ void Growth::gather(std::span<const std::uint32_t> nodes) {
         p.node[filled] = i;
         set_lane(p.position, filled, node.position);
         p.normal.x[filled] = node.normal[0], p.normal.y[filled] = node.normal[1], p.normal.z[filled] = node.normal[2];
-        const OctahedralPoint<double> code = unpack_octahedral(node.geometric_normal);
-        p.code.a[filled] = code.a, p.code.b[filled] = code.b;
+        p.code.a[filled] = octahedral_a(node.geometric_normal), p.code.b[filled] = octahedral_b(node.geometric_normal);
         p.offset[filled] = node.offset;
         // Where the viewer is seen from; in an orthographic picture all see it in one direction.
         const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
@@ -132,7 +131,7 @@ void Growth::gather(std::span<const std::uint32_t> nodes) {
     }
     for (PointLanes& p : points_) {
         p.viewer = normalize(p.viewer - p.position);
-        p.geometric = from_octahedral(p.code);
+        p.geometric = from_octahedral(OctahedralPoint<Lanes>{p.code.a / octahedral_scale, p.code.b / octahedral_scale});
     }
 }
 

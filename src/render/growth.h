@@ -58,7 +58,7 @@ private:
         int count = 0;
         std::uint32_t node[lane_count];
         Vec3Lanes position, normal, geometric, viewer;
-        OctahedralPoint<Lanes> code;  // of the geometric normal
+        OctahedralPoint<Lanes> code;  // of the geometric normal, in steps
         Lanes offset;
         const Lobes* lobes[lane_count];
         Rgb sum[lane_count];
