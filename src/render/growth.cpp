@@ -164,7 +164,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
             if (last.found()) {
                 const accel::Instance& instance = world_.instances[last.instance];
                 Hit hit;
-                accel::nearest_in_part(instance, last.instance, accel::part_of(instance, last.primitive), accel::to_local(instance, ray), hit);
+                accel::nearest_in_part(instance, last.instance, accel::part_of(instance, last.primitive), accel::to_local(instance, ray), hit, accel::Sense::light);
                 ++counts.shape_tests;
                 if (hit.found()) {
                     share = Share::blocked;
