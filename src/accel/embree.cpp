@@ -133,7 +133,7 @@ private:
     template <bool shadows>
     void trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const;
     bool clip(const Ray& ray, double& from, double& to) const;
-    bool try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid,
+    bool try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
                     auto&& visit) const;
     const MeshRay& mesh_ray(Query& query, unsigned lane, std::uint32_t instance) const;
     void attach(RTCScene scene, PrimitiveSet& set);
@@ -310,11 +310,14 @@ const MeshRay& Embree::mesh_ray(Query& query, unsigned lane, std::uint32_t insta
 
 // Tries a sphere or a cluster against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
 // ray at a time is better, or the only way; then nothing was done.
-bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid,
+bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
                         auto&& visit) const {
     const Instance& instance = instances_[index];
     const unsigned active = bits_of_lanes(valid);
     alignas(64) double t[packet];
+    const auto meet = [&](unsigned lane, const Hit& hit) {
+        if (instance.one_sided.empty() || !is_culled(instance, hit.primitive, to_local(instance, query.rays[lane]), hit.t, sense)) visit(lane, hit);
+    };
     if (primitive.is_cluster) {
         const TriangleCluster& cluster = set.clusters[primitive.index];
         if (!rays_outnumber_triangles(active, cluster)) return false;
@@ -325,7 +328,7 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
             const int k = __builtin_ctz(triangles);
             for (unsigned lanes = triangle_lanes(query.mesh_packet, query.packet_rays, active, cluster, k, t); lanes; lanes &= lanes - 1) {
                 const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-                visit(lane, Hit{t[lane], index, cluster.triangle[k]});
+                meet(lane, Hit{t[lane], index, cluster.triangle[k]});
             }
         }
         query.counts.shape_tests += static_cast<unsigned>(__builtin_popcount(in_reach)) * packet;
@@ -335,7 +338,7 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
     if (!sphere) return false;
     for (unsigned lanes = sphere_lanes(query.packet_rays, active, instance, sphere->radius, t); lanes; lanes &= lanes - 1) {
         const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-        visit(lane, Hit{t[lane], index, 0});
+        meet(lane, Hit{t[lane], index, 0});
     }
     query.counts.shape_tests += packet;
     return true;
@@ -359,13 +362,13 @@ void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const 
     const auto nearer = [&](unsigned lane, const Hit& hit) {
         if (before(hit, query.hits[lane])) update(lane, lane, hit);
     };
-    if (arguments.N == packet && try_packet(query, set, primitive, index, arguments.valid, nearer)) return;
+    if (arguments.N == packet && try_packet(query, set, primitive, index, arguments.valid, Sense::eye, nearer)) return;
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
         const unsigned lane = RTCRayN_id(rays, arguments.N, i);
         Hit hit = query.hits[lane];
         if (primitive.is_cluster) {
-            nearest_in_cluster(set.clusters[primitive.index], index, mesh_ray(query, lane, index), hit);
+            nearest_in_cluster(set.clusters[primitive.index], instance, index, mesh_ray(query, lane, index), hit, Sense::eye);
             query.counts.shape_tests += cluster_size;
         } else {
             nearest_in_part(instance, index, primitive.index, to_local(instance, query.rays[lane]), hit);
@@ -381,8 +384,8 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
     const Primitive primitive = set.primitives[arguments.primID];
     const std::uint32_t index = instance_of(query.context, primitive);
     const Instance& instance = instances_[index];
-    // Of a sphere that is not opaque both crossings count: one ray at a time.
-    if (arguments.N == packet && (instance.opaque || primitive.is_cluster)) {
+    // Of a sphere that is not opaque both crossings count, of one with one side perhaps the second: one ray at a time.
+    if (arguments.N == packet && ((instance.opaque && instance.one_sided.empty()) || primitive.is_cluster)) {
         const auto block_or_cross = [&](unsigned lane, const Hit& hit) {
             if (instance.opaque) {
                 query.hits[lane] = hit;
@@ -391,7 +394,7 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
                 query.crossings->push_back({query.first_ray + lane, hit});
             }
         };
-        if (try_packet(query, set, primitive, index, arguments.valid, block_or_cross)) return;
+        if (try_packet(query, set, primitive, index, arguments.valid, Sense::light, block_or_cross)) return;
     }
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
@@ -401,9 +404,9 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
         if (instance.opaque) {
             Hit& hit = query.hits[lane];
             if (primitive.is_cluster) {
-                nearest_in_cluster(set.clusters[primitive.index], index, mesh_ray(query, lane, index), hit);
+                nearest_in_cluster(set.clusters[primitive.index], instance, index, mesh_ray(query, lane, index), hit, Sense::light);
             } else {
-                nearest_in_part(instance, index, primitive.index, to_local(instance, ray), hit);
+                nearest_in_part(instance, index, primitive.index, to_local(instance, ray), hit, Sense::light);
             }
             if (hit.found()) RTCRayN_tfar(arguments.ray, arguments.N, i) = -INFINITY;
         } else if (primitive.is_cluster) {
@@ -411,6 +414,7 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
             const TriangleCluster& cluster = set.clusters[primitive.index];
             for (unsigned lanes = hit_lanes(cluster, mesh_ray(query, lane, index), ray.t_max, t); lanes; lanes &= lanes - 1) {
                 const int k = __builtin_ctz(lanes);
+                if (is_culled(instance, cluster.triangle[k], mesh_ray(query, lane, index).ray, t[k], Sense::light)) continue;
                 query.crossings->push_back({query.first_ray + lane, {t[k], index, cluster.triangle[k]}});
             }
         } else {
@@ -512,7 +516,7 @@ void Embree::trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<C
             for (std::uint32_t part = 0; part < geometry::parts(*instance.shape); ++part) {
                 ++query.counts.shape_tests;
                 if (!shadows || instance.opaque) {
-                    nearest_in_part(instance, k, part, local, hits[i]);
+                    nearest_in_part(instance, k, part, local, hits[i], shadows ? Sense::light : Sense::eye);
                 } else {
                     all_in_part(instance, k, part, local, static_cast<std::uint32_t>(i), *crossings);
                 }

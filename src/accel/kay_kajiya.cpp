@@ -108,7 +108,7 @@ public:
                     all_in_part(instance, ref.instance, ref.part, local.in(ref.instance), static_cast<std::uint32_t>(i), crossings);
                     return true;
                 }
-                nearest_in_part(instance, ref.instance, ref.part, local.in(ref.instance), occluder);
+                nearest_in_part(instance, ref.instance, ref.part, local.in(ref.instance), occluder, Sense::light);
                 return !occluder.found();
             });
             occluders[i] = occluder;

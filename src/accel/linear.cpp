@@ -30,7 +30,7 @@ public:
             occluders[i] = {};
             for (const auto [instance, part] : parts_) {
                 if (instances_[instance].opaque) {
-                    nearest_in_part(instances_[instance], instance, part, ray.in(instance), occluders[i]);
+                    nearest_in_part(instances_[instance], instance, part, ray.in(instance), occluders[i], Sense::light);
                 } else {
                     all_in_part(instances_[instance], instance, part, ray.in(instance), static_cast<std::uint32_t>(i), crossings);
                 }

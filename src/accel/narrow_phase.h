@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "geometry/kinds.h"
@@ -23,6 +24,7 @@ struct Instance {
     bool translation = true;  // to_world moves only
     double stretch = 1;       // bound on the length of what to_world makes of a unit vector
     bool opaque = true;       // false: light passes, filtered; each crossing is reported to shadow rays
+    std::span<const std::uint8_t> one_sided;  // by material slot, the last for all beyond: the back is not met; empty: both sides are
 
     Instance() = default;
     Instance(const geometry::Shape& s, const Affine& place, bool is_opaque)
@@ -76,22 +78,44 @@ inline std::uint32_t part_of(const Instance& instance, std::uint32_t primitive) 
     return geometry::parts(*instance.shape) == 1 ? 0 : primitive;
 }
 
+// Who meets surfaces along a ray: the eye at its start, or the light that comes from its end.
+enum class Sense { eye, light };
+
+// Whether a hit is on the back of a one-sided surface, which is not met.
+inline bool is_culled(const Instance& instance, std::uint32_t primitive, const Ray& local, double t, Sense sense) {
+    if (instance.one_sided.empty()) return false;
+    const auto one_sided = [&](std::uint32_t slot) { return instance.one_sided[std::min<std::size_t>(slot, instance.one_sided.size() - 1)] != 0; };
+    const auto is_back = [&](Vec3 normal) { return (dot(normal, local.direction) > 0) == (sense == Sense::eye); };
+    if (const auto* mesh = std::get_if<geometry::Mesh>(instance.shape)) {
+        const auto& [a, b, c] = mesh->triangles[primitive];
+        const Vec3 p = mesh->positions[a];
+        return one_sided(mesh->slots.empty() ? 0 : mesh->slots[primitive]) && is_back(cross(mesh->positions[b] - p, mesh->positions[c] - p));
+    }
+    const geometry::SurfacePoint surface = geometry::surface(*instance.shape, primitive, local.at(t));
+    return one_sided(surface.slot) && is_back(surface.normal);
+}
+
 // Tries one part with a ray already in the shape's space; `hit` becomes the earlier of itself and the new hit.
-inline void nearest_in_part(const Instance& instance, std::uint32_t index, std::uint32_t part, const Ray& local, Hit& hit) {
+inline void nearest_in_part(const Instance& instance, std::uint32_t index, std::uint32_t part, const Ray& local, Hit& hit, Sense sense = Sense::eye) {
     Ray ray = local;
     ray.t_max = std::min(ray.t_max, hit.t);
-    if (const auto found = geometry::intersect(*instance.shape, part, ray)) {
+    while (const auto found = geometry::intersect(*instance.shape, part, ray)) {
+        if (is_culled(instance, found->primitive, local, found->t, sense)) {
+            ray.t_min = found->t;
+            continue;
+        }
         const Hit candidate{found->t, index, found->primitive};
         if (before(candidate, hit)) hit = candidate;
+        return;
     }
 }
 
-// Appends every crossing of the part within the ray's range.
+// Appends every crossing of the part within the ray's range, for light.
 inline void all_in_part(const Instance& instance, std::uint32_t index, std::uint32_t part, const Ray& local, std::uint32_t ray_index,
                         std::vector<Crossing>& crossings) {
     Ray ray = local;
     while (const auto found = geometry::intersect(*instance.shape, part, ray)) {
-        crossings.push_back({ray_index, {found->t, index, found->primitive}});
+        if (!is_culled(instance, found->primitive, local, found->t, Sense::light)) crossings.push_back({ray_index, {found->t, index, found->primitive}});
         ray.t_min = found->t;
     }
 }

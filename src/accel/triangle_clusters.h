@@ -56,12 +56,12 @@ inline unsigned hit_lanes(const TriangleCluster& cluster, const MeshRay& local, 
 }
 
 // As nearest_in_part, for all triangles of the cluster.
-inline void nearest_in_cluster(const TriangleCluster& cluster, std::uint32_t instance, const MeshRay& local, Hit& hit) {
+inline void nearest_in_cluster(const TriangleCluster& cluster, const Instance& instance, std::uint32_t index, const MeshRay& local, Hit& hit, Sense sense) {
     Lanes t;
     for (unsigned lanes = hit_lanes(cluster, local, std::min(local.ray.t_max, hit.t), t); lanes; lanes &= lanes - 1) {
         const int lane = __builtin_ctz(lanes);
-        const Hit candidate{t[lane], instance, cluster.triangle[lane]};
-        if (before(candidate, hit)) hit = candidate;
+        const Hit candidate{t[lane], index, cluster.triangle[lane]};
+        if (before(candidate, hit) && !is_culled(instance, candidate.primitive, local.ray, candidate.t, sense)) hit = candidate;
     }
 }
 

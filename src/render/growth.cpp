@@ -185,7 +185,7 @@ bool Growth::occluded_as_last(std::size_t light, std::uint8_t depth, const Ray& 
     if (!last.found()) return false;
     const accel::Instance& instance = world_.instances[last.instance];
     Hit hit;
-    accel::nearest_in_part(instance, last.instance, accel::part_of(instance, last.primitive), accel::to_local(instance, ray), hit);
+    accel::nearest_in_part(instance, last.instance, accel::part_of(instance, last.primitive), accel::to_local(instance, ray), hit, accel::Sense::light);
     ++tile_.tests.shape_tests;
     tile_.tests.shadow_cache_hits += hit.found();
     return hit.found();

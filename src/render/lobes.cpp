@@ -65,6 +65,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
         if (lobes.mirror_share > 0) lobes.mirror = f0;
         lobes.ambient_specular = f0;
         lobes.refraction = gray(1 - opacity);
+        lobes.one_sided = !m.double_sided;
     }
     // Light through a pane loses about one Fresnel reflection at each crossing.
     lobes.shadow_filter = m.base_color * (transmission * opacity * static_cast<float>(1 - r0 * r0)) + gray(1 - opacity);

@@ -42,6 +42,7 @@ struct Lobes {
     Rgb ambient_specular;    // f0 of the environment's blurred reflection; black: none
     float roughness = 0;     // of that blur
     Rgb shadow_filter;       // what passes a crossing in a shadow ray
+    bool one_sided = false;  // rays do not meet the back: glTF culls it. Never what refracts: rays must leave a body again
     Rgb albedo;              // for the picture's albedo layer
 
     bool opaque() const { return is_black(shadow_filter); }

@@ -18,7 +18,7 @@ Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const a
 Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     if (!scene.camera) return failure(ErrorKind::input, {"", "/camera", "the scene has no camera", ""});
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
     const scene::Scene& s = world->scene;
     for (const scene::Material& material : s.materials) world->lobes.push_back(compile(material));
     world->lobes.push_back(compile(scene::Material{}));
@@ -38,6 +38,12 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
         world->instances.emplace_back(s.shapes[s.nodes[node].shape.value].shape, to_world, opaque);
         world->node_of_instance.push_back(node);
     });
+    for (const std::uint32_t slot : world->slots) world->one_sided.push_back(world->lobes[slot].one_sided);
+    for (std::uint32_t i = 0; i < world->instances.size(); ++i) {
+        const std::size_t end = i + 1 < world->instances.size() ? world->first_slot[i + 1] : world->slots.size();
+        const std::span sides(world->one_sided.data() + world->first_slot[i], end - world->first_slot[i]);
+        if (std::any_of(sides.begin(), sides.end(), [](std::uint8_t one) { return one != 0; })) world->instances[i].one_sided = sides;
+    }
     for (const scene::Light& light : s.lights) world->lights.emplace_back(light);
     if (s.environment) world->environment = *s.environment;
 

@@ -20,6 +20,7 @@ struct World {
     std::vector<std::uint32_t> node_of_instance;  // index of the scene's node
     std::vector<std::uint32_t> first_slot;        // by instance: where its materials begin in `slots`
     std::vector<std::uint32_t> slots;             // index into lobes
+    std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
     std::vector<Lobes> lobes;                     // one for each material of the scene, and a default one at the end
     std::vector<Light> lights;
     scene::Environment environment;

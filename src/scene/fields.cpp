@@ -32,7 +32,7 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
         field(&M::transmission, {"transmission", FieldType::number, "", 0, 1, "Share of light that enters and is refracted"}),
         field(&M::attenuation, {"attenuation", FieldType::color, "1/m", 0, unbounded, "Absorption inside the material"}),
         field(&M::opacity, {"opacity", FieldType::number, "", 0, 1, "Coverage; the rest passes straight on"}),
-        field(&M::double_sided, {"double_sided", FieldType::boolean, "", 0, 1, "Seen from both sides"}),
+        field(&M::double_sided, {"double_sided", FieldType::boolean, "", 0, 1, "Both sides are met; false: the back is not there, for eye and light (what transmits has both sides always)"}),
     };
     return table;
 }

@@ -65,7 +65,7 @@ inline bool is_occluder(const Hit& hit, std::span<const Instance> instances, con
     const Instance& instance = instances[hit.instance];
     for (std::uint32_t part = 0; part < geometry::parts(*instance.shape); ++part) {
         Hit own;
-        nearest_in_part(instance, hit.instance, part, to_local(instance, ray), own);
+        nearest_in_part(instance, hit.instance, part, to_local(instance, ray), own, Sense::light);
         if (same(own, hit)) return true;
     }
     return false;

@@ -146,7 +146,9 @@ public:
     const geometry::Shape& shape(geometry::Shape s) { return scene_.shapes.emplace_back(std::move(s)); }
 
     void place(const geometry::Shape& s, const Affine& where, bool opaque) {
-        const Instance& instance = scene_.instances.emplace_back(s, frame_ * where, opaque);
+        static constexpr std::uint8_t one_sided[] = {1};
+        Instance& instance = scene_.instances.emplace_back(s, frame_ * where, opaque);
+        if (scene_.instances.size() % 5 == 3) instance.one_sided = one_sided;
         scene_.targets.push_back(instance.to_world.point({0, 0, 0}));
         if (const auto* mesh = std::get_if<geometry::Mesh>(&s)) {
             const std::size_t step = 1 + mesh->triangles.size() / 100;
