@@ -78,7 +78,8 @@ Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<
     std::vector<Medium> media;
     if (world.absorbs) media = media_of_ray(world, tile, node);
     for (std::size_t i = 0; i < crossings.size(); ++i) {
-        // A ray through an edge that two primitives of a surface share meets both at one distance, but crosses the surface once.
+        // Faces that a body has twice, or that overlap in it, are met at one distance, but crossed once: as by a seeing ray, which goes on
+        // clear of both. (At an edge that faces share a ray meets one of them anyway: geometry/ray_view.h.)
         const accel::Hit& hit = crossings[i].hit;
         if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
         const accel::Instance& instance = world.instances[hit.instance];

@@ -256,6 +256,26 @@ TEST(ColouredShadow, ASheetIsCrossedOnceAlsoAtItsEdges) {
     expect_wall(s.scene, [](Vec3) { return red * red; });
 }
 
+// Modellers leave faces twice in a mesh, also turned round: eye and light cross such a sheet once.
+TEST(ColouredShadow, ASheetWithDoubledFacesIsCrossedOnce) {
+    for (const bool turned : {false, true}) {
+        Build s = wall(matte({1, 1, 1}));
+        s.camera().position = {0, 0, 3};
+        scene::Light& sun = s.light();
+        sun.kind = scene::LightKind::directional, sun.direction = {1, -2, -7};
+        geometry::Mesh sheet = grid_mesh(5, 1);
+        for (std::size_t i = 0, count = sheet.triangles.size(); i < count; ++i) {
+            const auto [a, b, c] = sheet.triangles[i];
+            turned ? sheet.triangles.push_back({a, c, b}) : sheet.triangles.push_back({b, c, a});
+        }
+        s.place(sheet, s.material(glass(red, 1)), Affine::scaling({3, 3, 1}) * Affine::rotation({0, 0, 1}, 0.3));
+        const auto cosine = static_cast<float>(7 / std::sqrt(54.0));
+        expect_wall(s.scene, [=](Vec3) { return red * red * cosine; });
+        s.camera().position = {0, 0, 0.5};
+        expect_wall(s.scene, [=](Vec3) { return red * cosine; });
+    }
+}
+
 // A lamp that lies in a surface, as one in a ceiling does, is not shaded by it.
 TEST(Shadow, ALampInTheCeilingShines) {
     Build s = wall(matte(albedo));

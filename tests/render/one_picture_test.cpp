@@ -59,6 +59,25 @@ TEST(OnePicture, StillLife) { expect_one_picture(still_life()); }
 TEST(OnePicture, Instances) { expect_one_picture(instances()); }
 TEST(OnePicture, SurfacesInOneAnother) { expect_one_picture(coincident()); }
 
+// Three children of a node, a camera in a medium, surfaces with one side.
+TEST(OnePicture, CoverageMediaAndSides) {
+    scene::Scene scene = still_life();
+    scene.settings.width = 45, scene.settings.height = 34, scene.settings.tile = 20;
+    for (scene::Material& material : scene.materials) {
+        auto* m = std::get_if<PhysicalMaterial>(&material.model);
+        if (!m) continue;
+        m->double_sided = false;
+        if (m->metallic == 0) m->transmission = 0.7, m->attenuation = {0.8f, 0.2f, 0.4f};
+    }
+    ClassicMaterial fog = glass({1, 1, 1}, 1);
+    fog.attenuation = {0.02f, 0.03f, 0.01f};
+    scene.materials.push_back({"fog", fog});
+    scene.shapes.push_back({"fog", sphere(30)});
+    scene.nodes.push_back({"fog", {}, {static_cast<std::uint32_t>(scene.shapes.size() - 1)}, {{static_cast<std::uint32_t>(scene.materials.size() - 1)}}, {}, true});
+    scene.roots.push_back({static_cast<std::uint32_t>(scene.nodes.size() - 1)});
+    expect_one_picture(scene);
+}
+
 TEST(OnePicture, EveryLevel) {
     for (const scene::Level level : {scene::Level::visible, scene::Level::shadows, scene::Level::reflections}) {
         scene::Scene scene = still_life();
