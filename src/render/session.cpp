@@ -113,7 +113,7 @@ std::vector<Node> Session::State::drop(Tile& tile) {
 
 // The first picture's few nodes move to memory that has room for all of the tile's.
 void Session::State::take_spare(Tile& tile) {
-    if (tile.stage != 1) return;
+    if (tile.stage != 1 || tile.nodes.capacity() >= tile.corners.size()) return;
     std::vector<Node> spare;
     {
         const std::lock_guard lock(spare_mutex);
