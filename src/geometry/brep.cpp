@@ -51,7 +51,11 @@ Brep::Brep(std::span<const Face> faces, std::vector<FaceProblem>& problems) {
     }
     faces_.shrink_to_fit();
     leaves_.shrink_to_fit();
-    for (const Leaf& leaf : leaves_) bounds_.include(leaf.box);
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        if (i % clump_size == 0) clumps_.emplace_back();
+        clumps_.back().include(leaves_[i].box);
+        bounds_.include(leaves_[i].box);
+    }
 }
 
 Expected<Brep> Brep::make(std::span<const Face> faces) {
@@ -105,8 +109,10 @@ std::optional<ShapeHit> Brep::intersect(std::uint32_t part, const Ray& ray) cons
     Meeting meetings[AnalyticSurface::most_meetings];
     const int count = face.surface.meet(ray, meetings);
     for (int i = 0; i < count; ++i) {
-        const auto located = face.trimming.locate(face.surface.parameters(meetings[i].local), [&](Point2 p) { return face.surface.metric(p); });
-        if (located.place != Place::outside) return ShapeHit{meetings[i].t, part};
+        const Point2 root = face.surface.parameters(meetings[i].local);
+        const auto located = face.trimming.locate(root, [&](Point2 p) { return face.surface.metric(p); });
+        if (located.place == Place::outside || (located.near_edge && !counts(part, ray, meetings[i].t, root, located))) continue;
+        return ShapeHit{meetings[i].t, part};
     }
     return std::nullopt;
 }
@@ -129,7 +135,8 @@ SurfacePoint Brep::surface(std::uint32_t primitive, Vec3 position) const {
 }
 
 std::size_t Brep::bytes() const {
-    std::size_t total = sizeof *this + faces_.capacity() * sizeof(TrimmedFace) + leaves_.capacity() * sizeof(Leaf) + patches_.capacity() * sizeof(Patches);
+    std::size_t total = sizeof *this + faces_.capacity() * sizeof(TrimmedFace) + leaves_.capacity() * sizeof(Leaf) + patches_.capacity() * sizeof(Patches) +
+                        clumps_.capacity() * sizeof(Bounds);
     for (const TrimmedFace& face : faces_) total += face.trimming.bytes() - sizeof(Trimming);
     for (const Patches& p : patches_) {
         total += p.leaves.bytes() - sizeof(PatchLeaves) + p.plain.patches.capacity() * sizeof(BezierPatch);

@@ -68,6 +68,24 @@ private:
     Trimming::Located locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position) const;
     SurfacePoint patch_surface(const Leaf& leaf, const TrimmedFace& face, Vec3 position) const;
 
+    // --- brep_edges.cpp
+    struct Tangents {
+        Vec3 along_u, along_v, normal;  // normal: of unit length, outward
+    };
+    struct EdgeHit {  // a hit within the band of an edge, on either side of it
+        double t;
+        Vec3 position, outward;  // outward: along the face and across the edge, away from the face; unit length, or zero on the edge itself
+        double band;
+        std::uint32_t face;
+        bool strict;  // on the face's side
+        bool leaves;  // the ray goes along with the normal
+    };
+    Tangents tangents(const Leaf& leaf, const TrimmedFace& face, Point2 root, Vec3 position) const;
+    bool counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located) const;
+    bool gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray) const;
+
+    static constexpr std::uint32_t clump_size = 16;
+    std::vector<Bounds> clumps_;  // of so many leaves in a row
     std::vector<TrimmedFace> faces_;
     std::vector<Patches> patches_;
     std::vector<Leaf> leaves_;

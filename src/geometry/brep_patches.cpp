@@ -104,7 +104,9 @@ std::optional<ShapeHit> Brep::meet_patch(std::uint32_t part, const TrimmedFace& 
     while (true) {
         const int count = patches_[face.patches].leaves.roots(leaf.patch_leaf, rest, roots);
         for (int i = 0; i < count; ++i) {
-            if (locate_patch(leaf, face, roots[i], ray.at(roots[i].t)).place != Place::outside) return ShapeHit{roots[i].t, part};
+            const auto located = locate_patch(leaf, face, roots[i], ray.at(roots[i].t));
+            if (located.place == Place::outside || (located.near_edge && !counts(part, ray, roots[i].t, {roots[i].u, roots[i].v}, located))) continue;
+            return ShapeHit{roots[i].t, part};
         }
         if (count < room) return std::nullopt;
         rest.t_min = roots[room - 1].t;

@@ -184,12 +184,10 @@ NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stret
         const double length2 = inner(chord, chord);
         const double share = length2 > 0 ? std::clamp(-inner(start, chord) / length2, 0.0, 1.0) : 0;
         const Point2 at{piece.from.u + share * chord.u, piece.from.v + share * chord.v}, off = from_p(at);
-        return {at, chord, inner(off, off)};
+        return {at, inner(off, off)};
     }
-    const bool ahead = stretch->t1 >= stretch->t0;
-    const auto oriented = [&](Point2 slope) { return ahead ? slope : Point2{-slope.u, -slope.v}; };
-    NearestPoint best{piece.from, oriented(evaluate(*curve, stretch->t0).slope), inner(start, start)};
-    if (const double d = inner(end, end); d < best.distance2) best = {piece.to, oriented(evaluate(*curve, stretch->t1).slope), d};
+    NearestPoint best{piece.from, inner(start, start)};
+    if (const double d = inner(end, end); d < best.distance2) best = {piece.to, d};
     // Half the slope of the squared distance; its own slope without the curvature's share, which the safeguard of the root forgives.
     const auto f = [&](double t) -> ValueAndSlope {
         const CurvePoint c = evaluate(*curve, t);
@@ -210,7 +208,7 @@ NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stret
     if (falling < 0 && rising > 0) {
         const CurvePoint c = evaluate(*curve, bracketed_root(f, low, high, true, low + (high - low) * (falling / (falling - rising))));
         const Point2 off = from_p(c.at);
-        if (const double d = inner(off, off); d < best.distance2) best = {c.at, oriented(c.slope), d};
+        if (const double d = inner(off, off); d < best.distance2) best = {c.at, d};
     }
     return best;
 }

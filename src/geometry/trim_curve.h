@@ -49,7 +49,7 @@ double v_at(const MonotonePiece& piece, const CurveStretch* stretch, const LoopP
 // The point of the stretch that is nearest to p, as the metric measures, and its squared distance. Of a curve that turns sharply a point may be missed
 // that is nearer than the one found, where p is farther away than the radius of its curvature.
 struct NearestPoint {
-    Point2 at, along;  // along: the direction of the stretch there, from `from` to `to`
+    Point2 at;
     double distance2 = 0;
 };
 NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, Point2 p, const Metric& metric);

@@ -260,9 +260,14 @@ Trimming::NearEdge Trimming::nearest_edge(Point2 p, const Metric& metric) const 
         const auto [v0, v1] = std::minmax(piece.from.v, piece.to.v);
         const double du = std::max({u0 - p.u, p.u - u1, 0.0}), dv = std::max({v0 - p.v, p.v - v1, 0.0});
         if (du * du * step_u2 > band2 || dv * dv * step_v2 > band2) continue;
+        if (const auto* arc = piece.is_line() ? nullptr : std::get_if<ArcPiece>(curve_of(piece)); arc && arc->x.u == arc->y.v && arc->x.v == -arc->y.u) {
+            // Far from a circle, told without a search.
+            const double off = std::hypot(p.u - arc->center.u, p.v - arc->center.v) - std::hypot(arc->x.u, arc->x.v);
+            if (off * off * std::min(step_u2, step_v2) * 0.5 > band2) continue;
+        }
         const NearestPoint near = nearest_point(piece, stretch_of(piece), curve_of(piece), p, metric);
         if (!(near.distance2 <= band2) || !(std::sqrt(near.distance2) < best.distance)) continue;
-        best = {near.at, {p.u - near.at.u, p.v - near.at.v}, std::sqrt(near.distance2), piece.band, true};
+        best = {near.at, std::sqrt(near.distance2), piece.band, true};
     }
     return best;
 }

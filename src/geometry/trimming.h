@@ -30,17 +30,18 @@ public:
     struct Located {
         Place place = Place::outside;
         Point2 at;  // the point moved by periods to where it belongs to the face
+        bool near_edge = false;  // it may lie within the band of an edge
     };
     // metric(Point2) -> Metric there; asked for only near loops.
     template <class MetricAt>
     Located locate(Point2 p, const MetricAt& metric) const {
-        if (period_.u == 0 && period_.v == 0) return {place_of(p, metric), p};
+        if (period_.u == 0 && period_.v == 0) return place_of(p, metric);
         return locate_periodic(p, metric);
     }
 
-    // The edge within whose band p lies that is nearest, for points in a band.
+    // The nearest of the edges within whose bands p lies, on either side. p as `Located` has it.
     struct NearEdge {
-        Point2 at, outward;  // its nearest point; a direction in (u, v) across it, away from the inside, orthogonal in the metric
+        Point2 at;            // its nearest point
         double distance = 0;  // in space
         double band = 0;
         bool found = false;
@@ -84,16 +85,17 @@ private:
     }
 
     template <class MetricAt>
-    Place place_of(Point2 p, const MetricAt& metric) const {
-        if (!(p.u >= reach_.u0 && p.u <= reach_.u1 && p.v >= reach_.v0 && p.v <= reach_.v1)) return Place::outside;
+    Located place_of(Point2 p, const MetricAt& metric) const {
+        if (!(p.u >= reach_.u0 && p.u <= reach_.u1 && p.v >= reach_.v0 && p.v <= reach_.v1)) return {Place::outside, p};
         const int row = row_of(p.v);
         switch (cell(column_of(p.u), row)) {
-            case Cell::outside: return Place::outside;
-            case Cell::inside: return Place::inside;
+            case Cell::outside: return {Place::outside, p};
+            case Cell::inside: return {Place::inside, p};
             default: break;
         }
-        if (encloses(p, row)) return Place::inside;
-        return nearest_edge(p, metric(p)).found ? Place::band : Place::outside;
+        if (encloses(p, row)) return {Place::inside, p, true};
+        const bool in_band = nearest_edge(p, metric(p)).found;
+        return {in_band ? Place::band : Place::outside, p, in_band};
     }
     // A surface may come back to the same place several periods on, and near its seam on both sides of the loops.
     template <class MetricAt>
@@ -103,9 +105,9 @@ private:
         if (!std::isfinite(p.u) || !std::isfinite(p.v)) return best;
         for (double v = first(p.v, period_.v, reach_.v0); v <= reach_.v1; v += period_.v) {
             for (double u = first(p.u, period_.u, reach_.u0); u <= reach_.u1; u += period_.u) {
-                const Place place = place_of({u, v}, metric);
-                if (place > best.place) best = {place, {u, v}};
-                if (place == Place::inside) return best;
+                const Located located = place_of({u, v}, metric);
+                if (located.place > best.place) best = located;
+                if (located.place == Place::inside) return best;
                 if (period_.u == 0) break;
             }
             if (period_.v == 0) break;

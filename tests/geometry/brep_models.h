@@ -243,6 +243,70 @@ inline Model odd_cone_model(Placing place, double band) {
     return m;
 }
 
+// A wall of revolution about z as four rational patches a row: the profile's homogeneous points (distance from the axis, height, weight) turned by
+// quarters. Covers u from 0 to `turn`, quarter by quarter, and v from 0 to 1.
+inline PatchSurface turned(const Placing& place, Vec3 origin, const std::vector<Vec3>& profile, double turn) {
+    PatchSurface surface;
+    const double root = std::sqrt(0.5), corner[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+    for (int quarter = 0; quarter < 4; ++quarter) {
+        BezierPatch patch;
+        patch.degree_u = 2, patch.degree_v = static_cast<int>(profile.size()) - 1, patch.rational = true;
+        patch.u0 = turn * quarter / 4, patch.u1 = turn * (quarter + 1) / 4;
+        for (int i = 0; i < 3; ++i) {
+            const double* a = corner[quarter];
+            const double* b = corner[quarter + 1];
+            const double x = i == 0 ? a[0] : i == 2 ? b[0] : a[0] + b[0], y = i == 0 ? a[1] : i == 2 ? b[1] : a[1] + b[1];
+            for (const Vec3 p : profile) {
+                const double w = p.z * (i == 1 ? root : 1);
+                patch.points.push_back({place.point(origin + Vec3{x * p.x, y * p.x, p.y}) * w, w});
+            }
+        }
+        surface.patches.push_back(patch);
+    }
+    return surface;
+}
+
+// The plate with its hole's wall as patches: with u as the patches have it, or as the angle.
+inline Model patch_plate_model(Placing place, double band, bool revolved) {
+    Model m = plate_model(place, band);
+    m.name = revolved ? "plate with a revolved hole" : "plate with a hole of patches";
+    const Vec3 origin{0.2, -0.1, 0};
+    const double r = 0.4, turn = revolved ? 2 * pi : 4;
+    PatchSurface wall = turned(place, origin, {{r, -0.25, 1}, {r, 0.25, 1}}, turn);
+    if (revolved) wall.revolved = place.at(origin);
+    m.faces.back() = trimmed(wall, {rectangle_loop(0, turn, 0, 1, band)}, true);
+    m.size = 1.4;
+    return m;
+}
+
+// The dome, its ball made of patches with a pole; what lies below the cut is trimmed off, at a height that is no border of patches.
+inline Model patch_dome_model(Placing place, double band) {
+    Model m = dome_model(place, band);
+    m.name = "dome of patches";
+    const double root = std::sqrt(0.5);
+    // Quarters of the meridian: from the south pole to the equator, and on to the north pole.
+    PatchSurface ball;
+    for (const bool north : {false, true}) {
+        const std::vector<Vec3> low{{0, -1, 1}, {1, -1, root}, {1, 0, 1}}, high{{1, 0, 1}, {1, 1, root}, {0, 1, 1}};
+        PatchSurface half = turned(place, {}, north ? high : low, 2 * pi);
+        for (BezierPatch& patch : half.patches) patch.v0 += north, patch.v1 += north, ball.patches.push_back(patch);
+    }
+    ball.revolved = place.at({});
+    // The meridian's quarter is ((1 - s)^2 (0, -1) + 2 s (1 - s) root (1, -1) + s^2 (1, 0)) / weight: where its height is the cut.
+    const double cut = -0.3;
+    double low = 0, high = 1;
+    for (int i = 0; i < 100; ++i) {
+        const double s = 0.5 * (low + high), a = (1 - s) * (1 - s), b = 2 * s * (1 - s) * root, c = s * s;
+        (-(a + b) / (a + b + c) < cut ? low : high) = s;
+    }
+    m.faces[0] = trimmed(ball, {rectangle_loop(0, 2 * pi, low, 2, band)});
+    return m;
+}
+
+inline std::vector<Model> patch_models(Placing place, double band) {
+    return {patch_plate_model(place, band, false), patch_plate_model(place, band, true), patch_dome_model(place, band)};
+}
+
 inline std::vector<Model> models(Placing place, double band) {
     return {box_model(place, band),  plate_model(place, band), cone_model(place, band, false), cone_model(place, band, true),
             dome_model(place, band), ring_model(place, band),  rod_model(place, band),         fillet_model(place, band), odd_cone_model(place, band)};

@@ -100,6 +100,27 @@ TEST_P(BrepModels, RandomRays) {
     }
 }
 
+// Faces on rational patches. A patch is a little off the true circle in doubles, and neighbours among its leaves overlap: what lies within `blur` of the surface
+// is not held against it, and hits that differ by rounding are one.
+TEST_P(BrepModels, RandomRaysAtPatches) {
+    const Setting& s = GetParam();
+    const double band = 1e-9 * s.scale + 64 * eps * length(s.origin);
+    for (const Model& model : patch_models(placing(s.scale, s.origin, s.turned), band)) {
+        const Brep brep = made(model);
+        Random random(12);
+        int met = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const Vec3 target = model.place.point(random.inside_cube() * 1.1), d = random.direction();
+            Ray ray;
+            ray.origin = target - d * (model.size * s.scale * (i % 3 == 0 ? 0 : i % 3 == 1 ? 4 : 50));
+            ray.direction = d * std::exp2(random.between(-8, 8));
+            met += !sorted_hits(brep, ray).empty();
+            ASSERT_TRUE(agrees(model, brep, ray, 8 * band)) << model.name << ", ray " << i;
+        }
+        EXPECT_GT(met, 1000) << model.name;
+    }
+}
+
 // Symmetric places: through vertices of loops, along rows of cells, along axes and in planes of symmetry. Faces share edges exactly here, so what lies on an
 // edge is found within the band of one unit in the last place or so.
 TEST_P(BrepModels, SymmetricRays) {
