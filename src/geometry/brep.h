@@ -74,15 +74,17 @@ private:
     };
     struct EdgeHit {  // a hit within the band of an edge, on either side of it
         double t;
-        Vec3 position, outward;  // outward: along the face and across the edge, away from the face; unit length, or zero on the edge itself
+        Vec3 position, normal;
+        Vec3 outward[Trimming::most_near_edges];  // along the face and across its edges, away from the face; unit length, or zero
+        int edges;
         double band;
         std::uint32_t face;
         bool strict;  // on the face's side
         bool leaves;  // the ray goes along with the normal
     };
     Tangents tangents(const Leaf& leaf, const TrimmedFace& face, Point2 root, Vec3 position) const;
-    bool counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located) const;
-    bool gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray) const;
+    bool counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located, int depth = 0) const;
+    bool gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray, int depth) const;
 
     static constexpr std::uint32_t clump_size = 16;
     std::vector<Bounds> clumps_;  // of so many leaves in a row

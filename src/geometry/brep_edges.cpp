@@ -42,33 +42,37 @@ Brep::Tangents Brep::tangents(const Leaf& leaf, const TrimmedFace& face, Point2 
 }
 
 // `root`: the parameters of the surface itself, of the patches where it is made of such.
-bool Brep::counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located) const {
+bool Brep::counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located, int depth) const {
     const Leaf& leaf = leaves_[part];
     const TrimmedFace& face = faces_[leaf.face];
     EdgeHit hit;
     hit.t = t, hit.position = ray.at(t), hit.face = leaf.face;
     const Tangents own = tangents(leaf, face, root, hit.position);
-    const Trimming::NearEdge edge = face.trimming.nearest_edge(located.at, metric_of(own.along_u, own.along_v));
-    if (!edge.found) return true;
+    Trimming::NearEdge edges[Trimming::most_near_edges];
+    hit.edges = face.trimming.near_edges(located.at, metric_of(own.along_u, own.along_v), edges);
+    if (hit.edges == 0) return true;
     hit.strict = located.place == Place::inside;
-    hit.band = edge.band;
+    hit.normal = own.normal;
     hit.leaves = dot(own.normal, ray.direction) > 0;
-    const double away = hit.strict ? -1 : 1;
-    const Vec3 outward = own.along_u * (away * (located.at.u - edge.at.u)) + own.along_v * (away * (located.at.v - edge.at.v));
-    const double size = length(outward);
-    hit.outward = size > 0 ? outward / size : Vec3{};
+    hit.band = 0;
+    for (int i = 0; i < hit.edges; ++i) {
+        const Vec3 outward = own.along_u * edges[i].outward.u + own.along_v * edges[i].outward.v;
+        const double size = length(outward);
+        hit.outward[i] = size > 0 ? outward / size : Vec3{};
+        hit.band = std::max(hit.band, edges[i].band);
+    }
     const auto count = static_cast<std::uint32_t>(leaves_.size());
     for (std::uint32_t clump = 0; clump < clumps_.size(); ++clump) {
         if (!holds(clumps_[clump], hit.position)) continue;
         for (std::uint32_t other = clump * clump_size; other < std::min((clump + 1) * clump_size, count); ++other) {
-            if (leaves_[other].face != leaf.face && holds(leaves_[other].box, hit.position) && gives_way(hit, other, ray)) return false;
+            if (leaves_[other].face != leaf.face && holds(leaves_[other].box, hit.position) && gives_way(hit, other, ray, depth)) return false;
         }
     }
     return true;
 }
 
 // Whether the crossing does not count because of what another leaf has near it.
-bool Brep::gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray) const {
+bool Brep::gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray, int depth) const {
     const Leaf& leaf = leaves_[other];
     const TrimmedFace& face = faces_[leaf.face];
     const PatchLeaves* patches = face.patches == none ? nullptr : &patches_[face.patches].leaves;
@@ -93,22 +97,32 @@ bool Brep::gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray) co
     }
     if (!(length(hit.position - below) <= 2 * hit.band) || located_at(foot, below).place == Place::outside) return false;
     const Vec3 normal = tangents(leaf, face, foot, below).normal;
-    const double beyond = dot(hit.position - below, normal), turn = dot(normal, hit.outward);
+    const double beyond = dot(hit.position - below, normal);
+    double turn = 0;  // positive: across the edge with this face, ours goes out of it; negative: in
+    for (int i = 0; i < hit.edges; ++i) {
+        if (const double own = dot(normal, hit.outward[i]); std::abs(own) > std::abs(turn)) turn = own;
+    }
 
     // Where the ray meets the other surface instead.
-    const bool smooth = std::abs(turn) < 0.05;
+    // Across the common edge our face goes straight out of the other one, or in. Where it has no edge that runs so, the two meet elsewhere.
+    const double sine = length(cross(normal, hit.normal));
+    const bool smooth = sine < 0.05;
+    if (!smooth && !(std::abs(turn) > 0.5 * sine)) return false;
     const double reach = (smooth ? 100 : 1e4) * hit.band / length(ray.direction);
     const Ray line{ray.origin, ray.direction, hit.t - reach, hit.t + reach};
     bool met = false, strict = false, near_edge = false, alike = false;
-    double distance = HUGE_VAL;
+    double distance = HUGE_VAL, instead_t = 0;
+    Point2 instead_root;
+    Trimming::Located instead;
     const auto consider = [&](double t, Point2 root) {
         if (!(std::abs(t - hit.t) < distance)) return;
         const Vec3 position = ray.at(t);
         const Trimming::Located located = located_at(root, position);
         const Tangents there = tangents(leaf, face, root, position);
         distance = std::abs(t - hit.t);
+        instead_t = t, instead_root = root, instead = located;
         met = located.place != Place::outside, strict = located.place == Place::inside;
-        near_edge = !strict || (located.near_edge && face.trimming.nearest_edge(located.at, metric_of(there.along_u, there.along_v)).found);
+        near_edge = !strict || (located.near_edge && face.trimming.near_edge(located.at, metric_of(there.along_u, there.along_v)));
         alike = (dot(there.normal, ray.direction) > 0) == hit.leaves;
     };
     if (patches) {
@@ -121,15 +135,18 @@ bool Brep::gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray) co
         for (int i = 0; i < count; ++i) consider(meetings[i].t, face.surface.parameters(meetings[i].local));
     }
 
-    if (smooth) {
-        if (!met || !alike) return false;
-        if (strict != hit.strict || !near_edge) return strict;
-        return leaf.face < hit.face;
-    }
+    // That other crossing may itself give way, at a vertex to a third face's, which must not give way to this one: a crossing too many rather than none.
+    constexpr int deepest = 2;
+    const auto has_it = [&] { return !near_edge || depth == deepest || counts(other, ray, instead_t, instead_root, instead, depth + 1); };
     const double blur = 64 * eps * (max_component(abs(hit.position)) + leaf.box.largest_coordinate());
-    if (!(beyond * (turn > 0 ? 1 : -1) > blur)) return false;
-    if (met && alike) return true;  // in its place
-    return !(strict && near_edge == false);  // neither the one nor the other, unless that one stands for itself
+    if (smooth || std::abs(beyond) <= blur) {  // told twice
+        if (!met || !alike) return false;
+        const bool first = strict != hit.strict ? strict : !near_edge || leaf.face < hit.face;
+        return first && has_it();
+    }
+    if ((beyond > 0) != (turn > 0)) return false;
+    if (met && alike) return has_it();
+    return !(strict && !near_edge);  // neither the one nor the other, unless that one stands for itself
 }
 
 }  // namespace crescente::geometry

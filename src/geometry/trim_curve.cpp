@@ -175,6 +175,11 @@ double v_at(const MonotonePiece& piece, const CurveStretch* stretch, const LoopP
     return other_coordinate(piece, stretch, curve, u, &Point2::u, &Point2::v);
 }
 
+CurvePoint middle_of(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve) {
+    if (!piece.is_line()) return evaluate(*curve, 0.5 * (stretch->t0 + stretch->t1));
+    return {{0.5 * (piece.from.u + piece.to.u), 0.5 * (piece.from.v + piece.to.v)}, {piece.to.u - piece.from.u, piece.to.v - piece.from.v}};
+}
+
 NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, Point2 p, const Metric& metric) {
     const auto inner = [&](Point2 a, Point2 b) { return metric.uu * a.u * b.u + metric.uv * (a.u * b.v + a.v * b.u) + metric.vv * a.v * b.v; };
     const auto from_p = [&](Point2 q) { return Point2{q.u - p.u, q.v - p.v}; };
@@ -184,10 +189,10 @@ NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stret
         const double length2 = inner(chord, chord);
         const double share = length2 > 0 ? std::clamp(-inner(start, chord) / length2, 0.0, 1.0) : 0;
         const Point2 at{piece.from.u + share * chord.u, piece.from.v + share * chord.v}, off = from_p(at);
-        return {at, inner(off, off)};
+        return {at, chord, inner(off, off)};
     }
-    NearestPoint best{piece.from, inner(start, start)};
-    if (const double d = inner(end, end); d < best.distance2) best = {piece.to, d};
+    NearestPoint best{piece.from, evaluate(*curve, stretch->t0).slope, inner(start, start)};
+    if (const double d = inner(end, end); d < best.distance2) best = {piece.to, evaluate(*curve, stretch->t1).slope, d};
     // Half the slope of the squared distance; its own slope without the curvature's share, which the safeguard of the root forgives.
     const auto f = [&](double t) -> ValueAndSlope {
         const CurvePoint c = evaluate(*curve, t);
@@ -208,7 +213,7 @@ NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stret
     if (falling < 0 && rising > 0) {
         const CurvePoint c = evaluate(*curve, bracketed_root(f, low, high, true, low + (high - low) * (falling / (falling - rising))));
         const Point2 off = from_p(c.at);
-        if (const double d = inner(off, off); d < best.distance2) best = {c.at, d};
+        if (const double d = inner(off, off); d < best.distance2) best = {c.at, c.slope, d};
     }
     return best;
 }

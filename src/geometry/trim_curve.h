@@ -46,10 +46,13 @@ struct CurveStretch {
 double u_at(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, double v);
 double v_at(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, double u);
 
+// A point between the ends of the stretch, and the direction from `from` to `to` or back.
+CurvePoint middle_of(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve);
+
 // The point of the stretch that is nearest to p, as the metric measures, and its squared distance. Of a curve that turns sharply a point may be missed
 // that is nearer than the one found, where p is farther away than the radius of its curvature.
 struct NearestPoint {
-    Point2 at;
+    Point2 at, along;  // along: the direction of the stretch there, as middle_of has it
     double distance2 = 0;
 };
 NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, Point2 p, const Metric& metric);

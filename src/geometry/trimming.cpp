@@ -246,9 +246,8 @@ bool Trimming::encloses(Point2 p, int row) const {
     return inside;
 }
 
-Trimming::NearEdge Trimming::nearest_edge(Point2 p, const Metric& metric) const {
-    NearEdge best;
-    best.distance = infinity;
+template <class Visit>
+bool Trimming::any_near(Point2 p, const Metric& metric, Visit&& visit) const {
     const int row = row_of(p.v);
     // Steps of u alone, or v alone, go at least so far from any line along the other one.
     const double determinant = metric.uu * metric.vv - metric.uv * metric.uv;
@@ -266,10 +265,37 @@ Trimming::NearEdge Trimming::nearest_edge(Point2 p, const Metric& metric) const 
             if (off * off * std::min(step_u2, step_v2) * 0.5 > band2) continue;
         }
         const NearestPoint near = nearest_point(piece, stretch_of(piece), curve_of(piece), p, metric);
-        if (!(near.distance2 <= band2) || !(std::sqrt(near.distance2) < best.distance)) continue;
-        best = {near.at, std::sqrt(near.distance2), piece.band, true};
+        if (near.distance2 <= band2 && visit(piece, near)) return true;
     }
-    return best;
+    return false;
+}
+
+bool Trimming::near_edge(Point2 p, const Metric& metric) const {
+    return any_near(p, metric, [](const MonotonePiece&, const NearestPoint&) { return true; });
+}
+
+int Trimming::near_edges(Point2 p, const Metric& metric, NearEdge* edges) const {
+    int count = 0;
+    any_near(p, metric, [&](const MonotonePiece& piece, const NearestPoint& near) {
+        NearEdge edge{outward_of(piece, near.along, metric), std::sqrt(near.distance2), piece.band};
+        for (int i = 0; i < count; ++i) {
+            if (edge.distance < edges[i].distance) std::swap(edge, edges[i]);
+        }
+        if (count < most_near_edges) edges[count++] = edge;
+        return false;
+    });
+    return count;
+}
+
+Point2 Trimming::outward_of(const MonotonePiece& piece, Point2 along, const Metric& metric) const {
+    // Which side of the piece is inside, asked beside its middle.
+    const CurvePoint middle = middle_of(piece, stretch_of(piece), curve_of(piece));
+    const double length = std::hypot(middle.slope.u, middle.slope.v), step = 1e-7 * std::min(box_.u1 - box_.u0, box_.v1 - box_.v0) / length;
+    const Point2 left{middle.at.u - step * middle.slope.v, middle.at.v + step * middle.slope.u}, right{middle.at.u + step * middle.slope.v, middle.at.v - step * middle.slope.u};
+    const bool left_inside = encloses(left, row_of(left.v)), right_inside = encloses(right, row_of(right.v));
+    if (left_inside == right_inside) return {0, 0};
+    const Point2 across{-(metric.uv * along.u + metric.vv * along.v), metric.uu * along.u + metric.uv * along.v};  // to the left
+    return left_inside ? Point2{-across.u, -across.v} : across;
 }
 
 bool Trimming::all_outside(const ParameterBox& box) const {

@@ -39,14 +39,16 @@ public:
         return locate_periodic(p, metric);
     }
 
-    // The nearest of the edges within whose bands p lies, on either side. p as `Located` has it.
+    // The edges within whose bands p lies, on either side, the nearest first. p as `Located` has it.
     struct NearEdge {
-        Point2 at;            // its nearest point
+        Point2 outward;       // a direction in (u, v) orthogonal to the edge by the metric, away from the inside; zero if the loops do not tell
         double distance = 0;  // in space
         double band = 0;
-        bool found = false;
     };
-    NearEdge nearest_edge(Point2 p, const Metric& metric) const;
+    static constexpr int most_near_edges = 4;
+    int near_edges(Point2 p, const Metric& metric, NearEdge* edges) const;
+    // Whether there is one.
+    bool near_edge(Point2 p, const Metric& metric) const;
 
     const ParameterBox& box() const { return box_; }      // of the loops
     const ParameterBox& reach() const { return reach_; }  // of the loops with their bands
@@ -94,7 +96,7 @@ private:
             default: break;
         }
         if (encloses(p, row)) return {Place::inside, p, true};
-        const bool in_band = nearest_edge(p, metric(p)).found;
+        const bool in_band = near_edge(p, metric(p));
         return {in_band ? Place::band : Place::outside, p, in_band};
     }
     // A surface may come back to the same place several periods on, and near its seam on both sides of the loops.
@@ -115,6 +117,10 @@ private:
         return best;
     }
     bool encloses(Point2 p, int row) const;
+    // Calls visit(piece, nearest point of it) for each piece within whose band p lies, until it returns true.
+    template <class Visit>
+    bool any_near(Point2 p, const Metric& metric, Visit&& visit) const;
+    Point2 outward_of(const MonotonePiece& piece, Point2 along, const Metric& metric) const;
     bool runs_right_of(const MonotonePiece& piece, Point2 p) const;
 
     const CurveStretch* stretch_of(const MonotonePiece& piece) const { return piece.is_line() ? nullptr : &stretches_[piece.stretch]; }
