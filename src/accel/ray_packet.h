@@ -1,6 +1,8 @@
 // Sixteen rays by component, tried against one shape eight at a time.
 #pragma once
 
+#include <cstring>
+
 #include "accel/triangle_clusters.h"
 #include "geometry/sphere.h"
 
@@ -10,15 +12,21 @@ inline constexpr int packet_size = 16;
 
 inline Lanes load(const double* values) { return *reinterpret_cast<const Lanes*>(values); }
 
-// Lanes that are not set hold anything; masks say which count.
+// Lanes beyond the rays loaded repeat the first; masks say which count.
 struct RayPacket {
     alignas(64) double ox[packet_size], oy[packet_size], oz[packet_size], dx[packet_size], dy[packet_size], dz[packet_size];
     alignas(64) double start[packet_size], end[packet_size];  // end: the nearer of t_max and the hit so far
 
-    void set(int lane, const Ray& ray, double nearest) {
-        ox[lane] = ray.origin.x, oy[lane] = ray.origin.y, oz[lane] = ray.origin.z;
-        dx[lane] = ray.direction.x, dy[lane] = ray.direction.y, dz[lane] = ray.direction.z;
-        start[lane] = ray.t_min, end[lane] = nearest;
+    // count: 1 to packet_size.
+    void load_rays(const Ray* rays, int count) {
+        static_assert(sizeof(Ray) == sizeof(Lanes) && lane_count == 8);
+        double* const components[] = {ox, oy, oz, dx, dy, dz, start, end};
+        for (int first = 0; first < packet_size; first += lane_count) {
+            Lanes rows[lane_count];
+            for (int i = 0; i < lane_count; ++i) std::memcpy(&rows[i], &rays[first + i < count ? first + i : 0], sizeof(Lanes));
+            transpose(rows);
+            for (int k = 0; k < lane_count; ++k) *reinterpret_cast<Lanes*>(components[k] + first) = rows[k];
+        }
     }
 };
 
@@ -47,6 +55,7 @@ struct LocalLanes {
 inline unsigned sphere_lanes(const RayPacket& rays, unsigned active, const Instance& instance, double radius, double* t) {
     unsigned found = 0;
     for (int first = 0; first < packet_size; first += lane_count) {
+        if (!(active >> first & 0xff)) continue;
         const LocalLanes local(rays, first, instance);
         const auto [enter, leave] = geometry::inside_sphere(radius, local.origin, local.direction);
         const Lanes start = load(rays.start + first), end = load(rays.end + first);
@@ -68,6 +77,7 @@ struct MeshPacket {
     bool usable = false;
     LocalLanes half[packet_size / lane_count];
     geometry::RayViewOf<Lanes> view[packet_size / lane_count];
+    geometry::RayViewRange range;  // over the active rays
 
     void prepare(const RayPacket& rays, unsigned active, const Instance& to, std::uint32_t index) {
         instance = index;
@@ -75,19 +85,33 @@ struct MeshPacket {
         usable = true;
         for (int h = 0; h < packet_size / lane_count; ++h) {
             half[h] = LocalLanes(rays, h * lane_count, to);
-            for (int i = 0; i < lane_count; ++i) {
-                if (!(active >> (h * lane_count + i) & 1)) continue;
-                const auto& d = half[h].direction;
-                const int own = geometry::RayView::axis_of({d.x[i], d.y[i], d.z[i]});
-                usable = usable && (axis < 0 || axis == own);
-                axis = own;
+            const auto& d = half[h].direction;
+            const Lanes x = absolute(d.x), y = absolute(d.y), z = absolute(d.z);
+            const unsigned over_y = bits_of(x > y), x_over_z = bits_of(x > z), y_over_z = bits_of(y > z), wanted = active >> (h * lane_count) & 0xff;
+            // As RayView::axis_of, lane by lane.
+            const unsigned on_axis[3] = {over_y & x_over_z & wanted, ~over_y & y_over_z & wanted, wanted & ~(over_y & x_over_z) & ~(~over_y & y_over_z)};
+            for (int k = 0; k < 3; ++k) {
+                if (!on_axis[k]) continue;
+                usable = usable && (axis < 0 || axis == k);
+                axis = k;
             }
         }
-        for (int h = 0; h < packet_size / lane_count && usable; ++h) {
+        if (!usable) return;
+        range = {};
+        for (int h = 0; h < packet_size / lane_count; ++h) {
             view[h] = geometry::RayViewOf<Lanes>(half[h].origin, half[h].direction, std::max(axis, 0));
+            range.include(view[h], active >> (h * lane_count) & 0xff);
         }
     }
 };
+
+// Triangles of the cluster that some ray of the packet may hit, as bits.
+inline unsigned triangles_in_reach(const MeshPacket& mesh, const TriangleCluster& cluster) {
+    const auto p = mesh.range(cluster.p), q = mesh.range(cluster.q), r = mesh.range(cluster.r);
+    const LaneMask out = ((p.x_low > 0.0) & (q.x_low > 0.0) & (r.x_low > 0.0)) | ((p.x_high < 0.0) & (q.x_high < 0.0) & (r.x_high < 0.0)) |
+                         ((p.y_low > 0.0) & (q.y_low > 0.0) & (r.y_low > 0.0)) | ((p.y_high < 0.0) & (q.y_high < 0.0) & (r.y_high < 0.0));
+    return ~bits_of(out) & ((1u << cluster.count) - 1);
+}
 
 // As hit_lanes the other way round: which of the active rays meet triangle k of the cluster, as bits; t holds the parameters.
 inline unsigned triangle_lanes(const MeshPacket& mesh, const RayPacket& rays, unsigned active, const TriangleCluster& cluster, int k, double* t) {

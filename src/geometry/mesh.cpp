@@ -31,31 +31,16 @@ std::optional<ShapeHit> Mesh::intersect(std::uint32_t part, const Ray& ray) cons
 }
 
 SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {
-    const auto& triangle = triangles[primitive];
-    const Vec3 a = positions[triangle[0]], b = positions[triangle[1]], c = positions[triangle[2]];
-    const Vec3 ab = b - a, ac = c - a, ap = position - a;
-    const Vec3 normal = exact_cross(ab, ac);
-    const double area2 = dot(normal, normal);
+    const auto& [p, q, r] = triangles[primitive];
+    const auto at = triangle_surface(point3(positions[p]), point3(positions[q]), point3(positions[r]), point3(position));
     SurfacePoint point;
-    point.normal = normal / std::sqrt(area2);
-    point.position = position - point.normal * dot(point.normal, ap);
-    // Rounding of the coordinates, and of the edges: the latter tilts the normal, the more the narrower the triangle.
-    const double tilt = std::sqrt(dot(ab, ab) * dot(ac, ac) / area2);
-    const double largest = std::max({max_component(abs(a)), max_component(abs(b)), max_component(abs(c))});
-    point.error = std::numeric_limits<double>::epsilon() * (8 * largest + 4 * tilt * length(ap));
-    point.u = std::clamp(dot(cross(ap, ac), normal) / area2, 0.0, 1.0);
-    point.v = std::clamp(dot(cross(ab, ap), normal) / area2, 0.0, 1.0 - point.u);
-    point.shading_normal = point.normal;
+    point.position = vec3(at.position);
+    point.normal = point.shading_normal = vec3(at.normal);
+    point.error = at.error;
+    point.u = at.u, point.v = at.v;
     if (!normals.empty()) {
-        const bool per_corner = normals.size() == 3 * triangles.size();
-        const double weights[3] = {1.0 - point.u - point.v, point.u, point.v};
-        Vec3 sum;
-        for (int k = 0; k < 3; ++k) {
-            const auto& n = normals[per_corner ? 3 * std::size_t{primitive} + k : triangle[k]];
-            sum += Vec3{n[0], n[1], n[2]} * weights[k];
-        }
-        const double l = length(sum);
-        if (l > 0 && std::isfinite(l)) point.shading_normal = sum / l;
+        const auto corner = [&](int k) { return point3(corner_normal(primitive, k)); };
+        point.shading_normal = vec3(interpolated_normal(corner(0), corner(1), corner(2), at.u, at.v, at.normal));
     }
     point.slot = slots.empty() ? 0 : slots[primitive];
     return point;

@@ -17,6 +17,12 @@ struct Mesh {
     std::vector<std::array<float, 3>> normals;
     std::vector<std::uint16_t> slots;  // material slot of each triangle; empty: all 0
 
+    // Of a corner (0 to 2) of a triangle; the mesh must have normals.
+    Vec3 corner_normal(std::uint32_t triangle, int corner) const {
+        const std::size_t i = normals.size() == 3 * triangles.size() ? 3 * std::size_t{triangle} + corner : triangles[triangle][corner];
+        return {normals[i][0], normals[i][1], normals[i][2]};
+    }
+
     Bounds bounds() const;
     std::uint32_t parts() const { return static_cast<std::uint32_t>(triangles.size()); }
     Bounds part_bounds(std::uint32_t part) const;

@@ -6,16 +6,17 @@
 // an edge or vertex hits exactly one of those that tile a surface there, and crosses a closed surface an even number of times.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "math/exact.h"
-#include "math/vec.h"
+#include "math/vec_lanes.h"
 
 namespace crescente::geometry {
 
 // Three coordinates of one point (T = double), or of one corner of several triangles (T = a vector of doubles).
 template <class T>
-struct Point3 {
-    T x, y, z;
-};
+using Point3 = math::VecOf<T>;
 
 template <class T>
 struct ViewPoint {
@@ -56,6 +57,7 @@ public:
     }
 
 private:
+    friend class RayViewRange;
     static constexpr int next(int axis) { return axis == 2 ? 0 : axis + 1; }
     template <class P>
     static const P& pick(const Point3<P>& p, int axis) {
@@ -65,6 +67,50 @@ private:
     Point3<T> origin_{};
     int axis_ = 0;
     T inverse_{}, shear_x_{}, shear_y_{};
+};
+
+// The views of several rays with one axis, as intervals: where they see a point. Rounding is monotonic, so the bounds hold for what each
+// view computes, not only for what is true.
+class RayViewRange {
+public:
+    template <class V>
+    struct Box {
+        V x_low, x_high, y_low, y_high;
+    };
+
+    // Lanes whose bit is not set are left out.
+    void include(const RayViewOf<math::Lanes>& view, unsigned lanes) {
+        if (!lanes) return;
+        axis_ = view.axis_;
+        const auto extend = [lanes](Interval& interval, const math::Lanes& values) {
+            interval.low = std::min(interval.low, math::least(values, lanes));
+            interval.high = std::max(interval.high, math::greatest(values, lanes));
+        };
+        extend(origin_[0], view.origin_.x), extend(origin_[1], view.origin_.y), extend(origin_[2], view.origin_.z);
+        extend(shear_x_, view.shear_x_), extend(shear_y_, view.shear_y_);
+    }
+
+    template <class P>
+    Box<P> operator()(const Point3<P>& p) const {
+        const int i = RayViewOf<double>::next(axis_), j = RayViewOf<double>::next(i);
+        const P near = RayViewOf<double>::pick(p, axis_) - origin_[axis_].high, far = RayViewOf<double>::pick(p, axis_) - origin_[axis_].low;
+        const auto shear = [&](const Interval& s, P& low, P& high) {
+            const P a = s.low * near, b = s.low * far, c = s.high * near, d = s.high * far;
+            low = math::lesser(math::lesser(a, b), math::lesser(c, d)), high = math::greater(math::greater(a, b), math::greater(c, d));
+        };
+        P x_low, x_high, y_low, y_high;
+        shear(shear_x_, x_low, x_high);
+        shear(shear_y_, y_low, y_high);
+        return {(RayViewOf<double>::pick(p, i) - origin_[i].high) - x_high, (RayViewOf<double>::pick(p, i) - origin_[i].low) - x_low,
+                (RayViewOf<double>::pick(p, j) - origin_[j].high) - y_high, (RayViewOf<double>::pick(p, j) - origin_[j].low) - y_low};
+    }
+
+private:
+    struct Interval {
+        double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+    };
+    int axis_ = 0;
+    Interval origin_[3], shear_x_, shear_y_;
 };
 
 class RayView : public RayViewOf<double> {

@@ -16,10 +16,9 @@ std::optional<ShapeHit> Sphere::intersect(std::uint32_t, const Ray& ray) const {
 // u: turn about the y axis; v: from the south pole (0) to the north pole (1).
 SurfacePoint Sphere::surface(std::uint32_t, Vec3 position) const {
     SurfacePoint point;
-    const double distance = length(position);
-    point.normal = point.shading_normal = distance > 0 ? position / distance : Vec3{0, 1, 0};
+    point.normal = point.shading_normal = vec3(sphere_normal(vec_of(position)));
     point.position = point.normal * radius;
-    point.error = 4 * std::numeric_limits<double>::epsilon() * radius;
+    point.error = sphere_error(radius);
     point.u = azimuth(point.normal);
     point.v = std::atan2(point.normal.y, axis_distance(point.normal)) / pi + 0.5;
     return point;

@@ -43,4 +43,13 @@ inline SphereStretch<T> inside_sphere(double radius, const Point3<T>& o, const P
     return {middle - half, middle + half};
 }
 
+// The normal (unit length) at a point of the sphere: the direction of `near` from the centre.
+template <class T>
+inline Point3<T> sphere_normal(const Point3<T>& near) {
+    const T distance = length(near);
+    const auto good = distance > 0.0;
+    return {good ? near.x / distance : T{}, good ? near.y / distance : T{} + 1.0, good ? near.z / distance : T{}};
+}
+inline double sphere_error(double radius) { return 4 * std::numeric_limits<double>::epsilon() * radius; }
+
 }  // namespace crescente::geometry

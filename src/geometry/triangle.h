@@ -40,7 +40,41 @@ inline V triangle_parameter(const TriangleSides<V>& sides, const Point3<P>& p, c
     return parameter_between(t, V(s2 < low ? s2 : low), V(s2 > high ? s2 : high));
 }
 
-inline Point3<double> point3(math::Vec3 v) { return {v.x, v.y, v.z}; }
+inline Point3<double> point3(math::Vec3 v) { return math::vec_of(v); }
+
+// A point of a triangle, with what is there.
+template <class T>
+struct TriangleSurface {
+    Point3<T> position, normal;  // moved into the plane; unit length, on the side from which the corners run counter-clockwise
+    T u, v;                      // of q and r in the barycentric mean
+    T error;                     // bound on the distance of position from the true plane
+};
+
+template <class T>
+inline TriangleSurface<T> triangle_surface(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const Point3<T>& near) {
+    const Point3<T> e = q - p, f = r - p, offset = near - p;
+    const Point3<T> normal = math::exact_cross(e, f);
+    const T area2 = dot(normal, normal);
+    TriangleSurface<T> at;
+    at.normal = normal / math::square_root(area2);
+    at.position = near - at.normal * dot(at.normal, offset);
+    // Rounding of the coordinates, and of the edges: the latter tilts the normal, the more the narrower the triangle.
+    const T tilt = math::square_root(T(dot(e, e) * dot(f, f) / area2));
+    const T largest = math::greater(largest_component(p), math::greater(largest_component(q), largest_component(r)));
+    at.error = std::numeric_limits<double>::epsilon() * (8.0 * largest + 4.0 * tilt * length(offset));
+    at.u = parameter_between(T(dot(cross(offset, f), normal) / area2), T{} + 0.0, T{} + 1.0);
+    at.v = parameter_between(T(dot(cross(e, offset), normal) / area2), T{} + 0.0, T(1.0 - at.u));
+    return at;
+}
+
+// The mean of the corners' normals at (u, v), of unit length; `flat` where they cancel out.
+template <class T>
+inline Point3<T> interpolated_normal(const Point3<T>& p, const Point3<T>& q, const Point3<T>& r, const T& u, const T& v, const Point3<T>& flat) {
+    const Point3<T> sum = p * T(1.0 - u - v) + q * u + r * v;
+    const T size = length(sum);
+    const auto good = (size > 0.0) & (size < std::numeric_limits<double>::infinity());
+    return {good ? sum.x / size : flat.x, good ? sum.y / size : flat.y, good ? sum.z / size : flat.z};
+}
 
 // Whether the triangle has an area that is more than rounding.
 inline bool has_area(math::Vec3 p, math::Vec3 q, math::Vec3 r) {

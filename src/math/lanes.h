@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -14,6 +15,7 @@ inline constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
 using LaneMask = decltype(Lanes{} < Lanes{});  // all bits set where true
 
+inline double absolute(double x) { return std::abs(x); }
 inline double square_root(double x) { return std::sqrt(x); }
 inline double fused_multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
 
@@ -36,6 +38,49 @@ inline Lanes fused_multiply_add(Lanes a, Lanes b, Lanes c) {
     return result;
 #endif
 }
+
+inline Lanes absolute(Lanes x) { return x < 0.0 ? -x : x; }
+
+// Eight rows become eight columns.
+inline void transpose(Lanes (&rows)[lane_count]) {
+    Lanes pairs[lane_count], quads[lane_count];
+    for (int i = 0; i < lane_count; i += 2) {
+        pairs[i] = __builtin_shufflevector(rows[i], rows[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        pairs[i + 1] = __builtin_shufflevector(rows[i], rows[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int i = 0; i < lane_count; i += 4) {
+        for (int k = 0; k < 2; ++k) {
+            quads[i + k] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+            quads[i + k + 2] = __builtin_shufflevector(pairs[i + k], pairs[i + k + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        rows[i] = __builtin_shufflevector(quads[i], quads[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(quads[i], quads[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+
+// a where the lane's bit is set, else b.
+inline Lanes blend(unsigned lanes, const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    return reinterpret_cast<Lanes>(_mm512_mask_blend_pd(static_cast<__mmask8>(lanes), reinterpret_cast<__m512d>(b), reinterpret_cast<__m512d>(a)));
+#else
+    Lanes result = b;
+    for (int i = 0; i < lane_count; ++i) result[i] = lanes >> i & 1 ? a[i] : b[i];
+    return result;
+#endif
+}
+
+// Of the lanes whose bit is set; infinite if there is none.
+inline double least(const Lanes& x, unsigned lanes) {
+    Lanes low = blend(lanes, x, Lanes{} + std::numeric_limits<double>::infinity());
+    const auto fold = [&low](const Lanes& other) { low = other < low ? other : low; };
+    fold(__builtin_shufflevector(low, low, 4, 5, 6, 7, 0, 1, 2, 3));
+    fold(__builtin_shufflevector(low, low, 2, 3, 0, 1, 6, 7, 4, 5));
+    fold(__builtin_shufflevector(low, low, 1, 0, 3, 2, 5, 4, 7, 6));
+    return low[0];
+}
+inline double greatest(const Lanes& x, unsigned lanes) { return -least(-x, lanes); }
 
 // The true lanes as bits, lane 0 lowest.
 inline unsigned bits_of(LaneMask mask) {

@@ -47,7 +47,7 @@ std::vector<Rgb> radiances(const Tile& tile) {
         Rgb sum = node.local;
         if (node.reflected != no_node) sum += tile.nodes[node.reflected].weight * result[node.reflected];
         if (node.refracted != no_node) sum += tile.nodes[node.refracted].weight * result[node.refracted];
-        result[i] = sum;
+        result[i] = node.parent == no_node ? sum * node.weight : sum;  // the camera may be in a medium
     }
     return result;
 }

@@ -31,10 +31,11 @@ struct Node {
     std::uint32_t material = 0;      // index of lobes
     std::uint32_t parent = no_node;  // no_node: the root, ended by a camera ray
     std::uint32_t reflected = no_node, refracted = no_node;  // children, after this node in the tile
-    Rgb weight{1, 1, 1};             // of this node's radiance in the parent's
+    Rgb weight{1, 1, 1};             // of this node's radiance in the parent's; of a root's in its pixel
     Rgb local;                       // radiance towards the viewer, without the children
     std::uint8_t depth = 0;          // bounces
     bool inside = false;             // met from inside
+    bool crossed = false;            // the ray came through the parent's surface, not back from it
     bool shadowed = false;           // lights have been tried
 
     bool left_scene() const { return instance == no_node; }
@@ -100,7 +101,7 @@ struct Tile {
 // The product of the weights from the pixel down to the node.
 Rgb influence(const Tile& tile, std::uint32_t node);
 
-// Radiance of every node with its children, by node: what the trees say now.
+// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera.
 std::vector<Rgb> radiances(const Tile& tile);
 
 }  // namespace crescente::render

@@ -4,6 +4,7 @@
 
 #include "math/octahedral.h"
 #include "render/environment.h"
+#include "render/medium.h"
 
 namespace crescente::render {
 namespace {
@@ -63,17 +64,13 @@ void Growth::append(const Ray& ray, const Hit& hit, const Seed& seed, double pic
     node.parent = seed.parent;
     node.weight = seed.weight;
     node.depth = seed.depth;
+    node.crossed = seed.crossed;
     if (!hit.found()) {
         node.position = ray.direction;
         node.shadowed = true;
         const bool backdrop = world_.environment.backdrop && seed.parent == no_node;
         node.local = backdrop ? backdrop_radiance(world_.environment, picture_height) : environment_radiance(world_.environment, ray.direction);
         return;
-    }
-    if (seed.attenuation) {
-        const auto& a = *seed.attenuation;
-        const auto t = static_cast<float>(hit.t);
-        node.weight *= Rgb{std::exp(-a.r * t), std::exp(-a.g * t), std::exp(-a.b * t)};
     }
     const accel::Instance& instance = world_.instances[hit.instance];
     const Ray local = accel::to_local(instance, ray);
@@ -105,6 +102,7 @@ void Growth::append(const Ray& ray, const Hit& hit, const Seed& seed, double pic
     node.instance = hit.instance;
     node.primitive = hit.primitive;
     node.material = world_.material(hit.instance, surface.slot);
+    if (world_.absorbs) node.weight *= transmittance(world_, tile_, static_cast<std::uint32_t>(tile_.nodes.size() - 1), hit.t);
 }
 
 Vec3 Growth::to_viewer(const Node& node) const {
@@ -195,29 +193,14 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         if (hits_[i].found()) {
             share = Share::blocked;
             if (settings_.shadow_cache) last_occluder_[light * 256 + tile_.nodes[shadow_nodes_[i]].depth] = hits_[i];
-        } else if (first == crossing) {
+        } else if (first == crossing && !world_.absorbs) {
             share = Share::clear;
         } else {
-            const Rgb filter = passage({first, crossing}, rays_[i]);
-            share = is_black(filter) ? Share::blocked : Share::filtered;
+            const Rgb filter = passage(world_, tile_, shadow_nodes_[i], {first, crossing}, rays_[i]);
+            share = is_black(filter) ? Share::blocked : first == crossing && filter == Rgb{1, 1, 1} ? Share::clear : Share::filtered;
             if (share == Share::filtered) tile_.filtered[key] = filter;
         }
     }
-}
-
-// What passes all the crossings of a ray, in the order of the hits along it. A ray through an edge that two primitives of a surface
-// share meets both at one distance, but crosses the surface once.
-Rgb Growth::passage(std::span<const accel::Crossing> crossings, const Ray& ray) const {
-    constexpr double same = 1e-12;
-    Rgb filter{1, 1, 1};
-    for (std::size_t i = 0; i < crossings.size(); ++i) {
-        const Hit& hit = crossings[i].hit;
-        if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
-        const accel::Instance& instance = world_.instances[hit.instance];
-        const auto surface = geometry::surface(*instance.shape, hit.primitive, accel::to_local(instance, ray).at(hit.t));
-        filter *= world_.lobes[world_.material(hit.instance, surface.slot)].shadow_filter;
-    }
-    return filter;
 }
 
 void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) const {
@@ -258,8 +241,7 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         }
         ray.origin = start(node.position, geometric, node.offset, ray.direction);
         rays.push_back(ray);
-        const bool through_medium = p.refracted != node.inside && !is_black(lobes.attenuation);
-        seeds.push_back({p.parent, p.weight, static_cast<std::uint8_t>(node.depth + 1), through_medium ? &lobes.attenuation : nullptr});
+        seeds.push_back({p.parent, p.weight, static_cast<std::uint8_t>(node.depth + 1), p.refracted});
         coherent = coherent && node.depth == 0;
     }
     hits_.resize(rays.size());
@@ -280,24 +262,25 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
 }
 
 bool Growth::grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline) {
-    // A pass takes what exceeds the threshold, in the order in which it was spawned, a chunk at a time; its children queue behind.
+    // Takes what exceeds the threshold in the order in which it was spawned, a chunk at a time; its children queue behind.
     std::vector<Pending> chunk;
-    while (true) {
+    std::size_t kept = 0, next = 0;  // pending[0 .. kept) stays, [next .. end) is still to be looked at
+    bool in_time = true;
+    while (in_time) {
         chunk.clear();
-        std::size_t kept = 0, i = 0;
-        for (; i < pending.size() && chunk.size() < chunk_size; ++i) {
-            if (pending[i].influence > threshold) {
-                chunk.push_back(pending[i]);
+        for (; next < pending.size() && chunk.size() < chunk_size; ++next) {
+            if (pending[next].influence > threshold) {
+                chunk.push_back(pending[next]);
             } else {
-                pending[kept++] = pending[i];
+                pending[kept++] = pending[next];
             }
         }
-        if (chunk.empty()) return true;
-        std::move(pending.begin() + static_cast<std::ptrdiff_t>(i), pending.end(), pending.begin() + static_cast<std::ptrdiff_t>(kept));
-        pending.resize(pending.size() - chunk.size());
+        if (chunk.empty()) break;
         grow(chunk, pending);
-        if (deadline.passed()) return false;
+        in_time = !deadline.passed();
     }
+    pending.erase(pending.begin() + static_cast<std::ptrdiff_t>(kept), pending.begin() + static_cast<std::ptrdiff_t>(next));
+    return in_time;
 }
 
 }  // namespace crescente::render

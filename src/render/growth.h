@@ -51,7 +51,7 @@ private:
         std::uint32_t parent = no_node;
         Rgb weight{1, 1, 1};
         std::uint8_t depth = 0;
-        const Rgb* attenuation = nullptr;  // of the medium that the ray went through
+        bool crossed = false;
     };
     void append(const geometry::Ray& ray, const accel::Hit& hit, const Seed& seed, double picture_height);
     struct Lit {  // a hit whose light is being summed, with what every light needs to know of it
@@ -64,7 +64,6 @@ private:
         Rgb sum;
     };
     void trace_shadows(std::size_t light, accel::Coherence coherence);
-    Rgb passage(std::span<const accel::Crossing> crossings, const geometry::Ray& ray) const;
     Vec3 to_viewer(const Node& node) const;
 
     const World& world_;

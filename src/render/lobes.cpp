@@ -25,7 +25,7 @@ Lobes compile_classic(const scene::ClassicMaterial& m) {
     lobes.mirror = m.reflection;
     lobes.refraction = m.transmission;
     lobes.ior = m.ior;
-    lobes.attenuation = m.attenuation;
+    if (lobes.refracts()) lobes.attenuation = m.attenuation;
     lobes.fresnel = m.fresnel ? Fresnel::dielectric : Fresnel::none;
     lobes.shadow_filter = m.transmission;
     return lobes;

@@ -18,7 +18,7 @@ Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const a
 Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     if (!scene.camera) return failure(ErrorKind::input, {"", "/camera", "the scene has no camera", ""});
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false});
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
     const scene::Scene& s = world->scene;
     for (const scene::Material& material : s.materials) world->lobes.push_back(compile(material));
     world->lobes.push_back(compile(scene::Material{}));
@@ -29,7 +29,9 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
         bool opaque = true;
         for (const scene::MaterialId id : materials) {
             world->slots.push_back(id.valid() ? id.value : default_material);
-            opaque = opaque && world->lobes[world->slots.back()].opaque();
+            const Lobes& lobes = world->lobes[world->slots.back()];
+            opaque = opaque && lobes.opaque();
+            world->absorbs = world->absorbs || !is_black(lobes.attenuation);
         }
         if (materials.empty()) world->slots.push_back(default_material);
         world->filters_light = world->filters_light || !opaque;
@@ -38,6 +40,8 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     });
     for (const scene::Light& light : s.lights) world->lights.emplace_back(light);
     if (s.environment) world->environment = *s.environment;
+
+    world->camera_media = media_around_camera(*world);
 
     auto accelerator = make_accelerator(world->instances, s.settings);
     if (!accelerator) return tl::unexpected(accelerator.error());

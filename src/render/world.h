@@ -9,6 +9,7 @@
 #include "render/camera_rays.h"
 #include "render/light.h"
 #include "render/lobes.h"
+#include "render/medium.h"
 #include "scene/scene.h"
 
 namespace crescente::render {
@@ -25,6 +26,8 @@ struct World {
     CameraRays camera;
     std::unique_ptr<accel::Accelerator> accelerator;
     bool filters_light = false;  // some instance is not opaque
+    bool absorbs = false;        // some instance is a medium with an attenuation
+    std::vector<Medium> camera_media;
 
     // Index into lobes of what a hit's surface is made of.
     std::uint32_t material(std::uint32_t instance, std::uint32_t slot) const {

@@ -186,6 +186,22 @@ TEST(ColouredShadow, APaneIsCrossedTwice) {
     expect_wall(s.scene, [](Vec3 p) { return lit(p) * red * red; });
 }
 
+TEST(ColouredShadow, APaneAbsorbsOnTheWayThrough) {
+    Build s = shaded_wall();
+    ClassicMaterial tinted = glass(red, 1.5), smoked = glass(blue, 1);
+    tinted.attenuation = {2, 0.5f, 7}, smoked.attenuation = {0.3f, 3, 0};
+    s.place(pane(1), s.material(tinted));
+    s.place(box({-9, -9, 0.95}, {9, 9, 1.02}), s.material(smoked));  // the two overlap
+    expect_wall(s.scene, [&](Vec3 p) {
+        const double c = way(p, lamp).cosine;
+        Rgb expected = lit(p) * red * red * blue * blue;
+        for (const auto& [a, thickness] : {std::pair{tinted.attenuation, 0.1}, {smoked.attenuation, 0.07}}) {
+            expected *= Rgb{float(std::exp(-a.r * thickness / c)), float(std::exp(-a.g * thickness / c)), float(std::exp(-a.b * thickness / c))};
+        }
+        return expected;
+    });
+}
+
 TEST(ColouredShadow, PanesMultiplyInAnyOrder) {
     const std::pair<double, Rgb> panes[] = {{1, red}, {2, blue}, {3, green}};
     std::vector<int> order{0, 1, 2};

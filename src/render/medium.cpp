@@ -1,0 +1,105 @@
+#include "render/medium.h"
+
+#include <algorithm>
+
+#include "render/world.h"
+
+namespace crescente::render {
+namespace {
+
+Rgb exp_of_minus(Rgb depth) { return {std::exp(-depth.r), std::exp(-depth.g), std::exp(-depth.b)}; }
+
+std::vector<Medium>::iterator find(std::vector<Medium>& media, std::uint32_t instance) {
+    return std::find_if(media.begin(), media.end(), [instance](const Medium& m) { return m.instance == instance; });
+}
+
+// False if the place is outside of the instance's box.
+bool may_hold(const accel::Instance& instance, Vec3 place) {
+    const math::Bounds box = geometry::bounds(*instance.shape);
+    const Vec3 local = instance.to_local.point(place);
+    return !box.bounded() || max(box.lower, min(local, box.upper)) == local;
+}
+
+// The bodies that the ray which ended at the node was in: each by the last crossing on the path from the camera, else by where the camera is,
+// else by the side of the hit.
+std::vector<Medium> media_of_ray(const World& world, const Tile& tile, std::uint32_t end) {
+    std::vector<Medium> known;  // with black ones: bodies that the ray was not in
+    const auto add = [&](std::uint32_t instance, Rgb attenuation) {
+        if (find(known, instance) == known.end()) known.push_back({instance, attenuation});
+    };
+    for (const Node* node = &tile.nodes[end]; node->parent != no_node;) {
+        const Node& left = tile.nodes[node->parent];
+        const Rgb attenuation = world.lobes[left.material].attenuation;
+        if (!is_black(attenuation)) add(left.instance, left.inside != node->crossed ? attenuation : Rgb{});
+        node = &left;
+    }
+    for (const Medium& m : world.camera_media) add(m.instance, m.attenuation);
+    const Node& node = tile.nodes[end];
+    if (!node.left_scene() && node.inside) add(node.instance, world.lobes[node.material].attenuation);
+    std::erase_if(known, [](const Medium& m) { return is_black(m.attenuation); });
+    return known;
+}
+
+}  // namespace
+
+std::vector<Medium> media_around_camera(const World& world) {
+    std::vector<Medium> media;
+    if (!world.absorbs || world.scene.camera->projection == scene::Projection::orthographic) return media;
+    geometry::Ray ray;
+    ray.origin = world.camera.position();
+    for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
+        const accel::Instance& instance = world.instances[i];
+        if (instance.opaque || !may_hold(instance, ray.origin)) continue;
+        accel::Hit hit;
+        // One crossing tells, whichever way it is; of surfaces without an end some ways do not meet any.
+        for (const Vec3 way : {world.camera.forward(), Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+            ray.direction = way;
+            const geometry::Ray local = accel::to_local(instance, ray);
+            for (std::uint32_t part = 0; part < geometry::parts(*instance.shape); ++part) accel::nearest_in_part(instance, i, part, local, hit);
+            if (!hit.found()) continue;
+            const geometry::SurfacePoint surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
+            const Rgb attenuation = world.lobes[world.material(i, surface.slot)].attenuation;
+            if (!is_black(attenuation) && dot(surface.normal, local.direction) > 0) media.push_back({i, attenuation});
+            break;
+        }
+    }
+    return media;
+}
+
+Rgb transmittance(const World& world, const Tile& tile, std::uint32_t node, double length) {
+    Rgb depth;
+    for (const Medium& m : media_of_ray(world, tile, node)) depth += m.attenuation * static_cast<float>(length);
+    return exp_of_minus(depth);
+}
+
+Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<const accel::Crossing> crossings, const geometry::Ray& ray) {
+    constexpr double same = 1e-12;
+    Rgb filter{1, 1, 1}, depth;
+    std::vector<Medium> media;
+    if (world.absorbs) media = media_of_ray(world, tile, node);
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        // A ray through an edge that two primitives of a surface share meets both at one distance, but crosses the surface once.
+        const accel::Hit& hit = crossings[i].hit;
+        if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
+        const accel::Instance& instance = world.instances[hit.instance];
+        const geometry::Ray local = accel::to_local(instance, ray);
+        const auto surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
+        const Lobes& lobes = world.lobes[world.material(hit.instance, surface.slot)];
+        filter *= lobes.shadow_filter;
+        if (!world.absorbs) continue;
+        const bool leaves = dot(surface.normal, local.direction) > 0;
+        if (const auto medium = find(media, hit.instance); medium != media.end()) {
+            depth += medium->attenuation * static_cast<float>(hit.t - medium->since);
+            media.erase(medium);
+        } else if (leaves) {
+            depth += lobes.attenuation * static_cast<float>(hit.t);
+        }
+        if (!leaves && !is_black(lobes.attenuation)) media.push_back({hit.instance, lobes.attenuation, hit.t});
+    }
+    if (std::isfinite(ray.t_max)) {
+        for (const Medium& m : media) depth += m.attenuation * static_cast<float>(ray.t_max - m.since);
+    }
+    return filter * exp_of_minus(depth);
+}
+
+}  // namespace crescente::render
