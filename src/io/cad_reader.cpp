@@ -86,8 +86,10 @@ Expected<CadModel> read_isolated(const fs::path& file, const CadRequest& request
     std::error_code code;
     const fs::path absolute = fs::absolute(file, code);  // with a relative path OpenCASCADE does not find the files that it refers to
     const std::uintmax_t size = fs::file_size(file, code);
-    if (code) return wrong(ErrorKind::input, fs::exists(file) ? "cannot be read" : "there is no such file");
-    if (!fs::is_regular_file(file, code)) return wrong(ErrorKind::input, "is not a file");
+    std::error_code unknown;
+    const bool exists = fs::exists(file, unknown);
+    if (exists && !fs::is_regular_file(file, unknown)) return wrong(ErrorKind::input, "is not a file");
+    if (code) return wrong(ErrorKind::input, exists ? "cannot be read" : "there is no such file");
     if (size == 0) return wrong(ErrorKind::input, "is empty");
 
     IsolationLimits limits;

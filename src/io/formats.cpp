@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "base/spelling.h"
+#include "io/cad_file.h"
 #include "io/gltf.h"
 #include "io/mesh_file.h"
 #include "io/nff.h"
@@ -29,6 +30,10 @@ std::span<const Format> formats() {
          "Neutral File Format (Haines 1987), the whole of it: view, background, lights, fills, spheres, cones, cylinders, polygons and patches. "
          "No unit (metres) and no fixed up axis: the view says what is up.",
          at_once<read_nff_file>},
+        {"STEP", {".step", ".stp", ".p21"},
+         "Exact faces, assembly, names and colours of AP203, AP214 and AP242, with external references. Unit as the file says, z up.", read_cad_file},
+        {"IGES", {".iges", ".igs"}, "Exact faces, names and colours. Unit as the file says, z up.", read_cad_file},
+        {"OpenCASCADE BREP", {".brep", ".brp", ".rle"}, "Exact faces, as text or binary. No unit (millimetres), z up.", read_cad_file},
         {"glTF 2.0", {".gltf", ".glb"},
          "Meshes, hierarchy, instances, cameras, punctual lights, physical materials by their factors. Metres, y up.", at_once<read_gltf_file>},
         {"Wavefront OBJ", {".obj"}, "Polygons with MTL materials. No unit (metres), y up.", at_once<read_mesh_file>},

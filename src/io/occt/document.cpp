@@ -156,6 +156,8 @@ std::string read_brep(const fs::path& file, const Progress& progress, CadDocumen
     std::string head(64, '\0');
     stream.read(head.data(), static_cast<std::streamsize>(head.size()));
     stream.clear(), stream.seekg(0);
+    // OpenCASCADE does not look whether a number could be read, and goes on for as many as the file announced.
+    stream.exceptions(std::ios::failbit | std::ios::badbit);
     TopoDS_Shape shape;
     const Handle(Indicator) indicator = new Indicator(progress, 0, transferred, reading);
     const auto says = [&](const char* words) { return head.find(words) != std::string::npos; };
@@ -180,6 +182,8 @@ Expected<CadDocument> read_document(const std::string& file, const std::string& 
         else wrong = read_step(file, progress, result);
     } catch (const Standard_Failure& failure) {
         wrong = std::string("is damaged: OpenCASCADE says '") + failure.GetMessageString() + "'";
+    } catch (const std::ios_base::failure&) {
+        wrong = "is damaged: it ends too soon, or has no number where one belongs";
     }
     if (!wrong.empty()) return failure(ErrorKind::input, {shown_name, {}, wrong, {}});
     for (Problem& warning : result.warnings) warning.file = shown_name;
