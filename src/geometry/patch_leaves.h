@@ -50,6 +50,8 @@ public:
     std::uint32_t patch(std::uint32_t leaf) const { return leaves_[leaf].patch; }
     // The hull of the control points: holds the leaf, extension included, and what rounding adds.
     Bounds bounds(std::uint32_t leaf) const;
+    // The parameters that the leaf covers, extension included.
+    ParameterBox range(std::uint32_t leaf) const { return {leaves_[leaf].u0, leaves_[leaf].u1, leaves_[leaf].v0, leaves_[leaf].v1}; }
     std::size_t bytes() const;
 
     // All roots with t_min < t <= t_max in increasing t; of more than out.size() the nearest. Returns how many. Neighbours overlap a little, so
