@@ -21,6 +21,7 @@ struct Instance {
     Affine to_world, to_local;
     bool identity = true;     // to_world changes nothing
     bool translation = true;  // to_world moves only
+    double stretch = 1;       // bound on the length of what to_world makes of a unit vector
     bool opaque = true;       // false: light passes, filtered; each crossing is reported to shadow rays
 
     Instance() = default;
@@ -30,6 +31,7 @@ struct Instance {
           to_local(inverse(place)),
           identity(place == Affine{}),
           translation(place == Affine::translation(place.origin)),
+          stretch(std::max({length(place.x), length(place.y), length(place.z)}) * 1.7320508075688773),
           opaque(is_opaque) {
         if (translation) to_local = Affine::translation(-place.origin);
     }

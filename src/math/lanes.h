@@ -39,6 +39,13 @@ inline Lanes fused_multiply_add(Lanes a, Lanes b, Lanes c) {
 #endif
 }
 
+// A function of one double, lane after lane.
+inline double lane_by_lane(double x, auto&& f) { return f(x); }
+inline Lanes lane_by_lane(Lanes x, auto&& f) {
+    for (int i = 0; i < lane_count; ++i) x[i] = f(x[i]);
+    return x;
+}
+
 inline Lanes absolute(Lanes x) { return x < 0.0 ? -x : x; }
 
 // Eight rows become eight columns.

@@ -46,6 +46,11 @@ inline Vec3Lanes select(const LaneMask& mask, const Vec3Lanes& a, const Vec3Lane
     return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 
+// a where the lane's bit is set, else b.
+inline Vec3Lanes blend(unsigned lanes, const Vec3Lanes& a, const Vec3Lanes& b) {
+    return {blend(lanes, a.x, b.x), blend(lanes, a.y, b.y), blend(lanes, a.z, b.z)};
+}
+
 inline VecOf<double> vec_of(Vec3 v) { return {v.x, v.y, v.z}; }
 inline Vec3 vec3(const VecOf<double>& v) { return {v.x, v.y, v.z}; }
 inline Vec3Lanes broadcast(Vec3 v) { return {Lanes{} + v.x, Lanes{} + v.y, Lanes{} + v.z}; }

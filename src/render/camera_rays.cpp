@@ -31,6 +31,4 @@ geometry::Ray CameraRays::through(double x, double y) const {
     return ray;
 }
 
-Vec3 CameraRays::to_viewer(Vec3 point) const { return orthographic_ ? -forward_ : normalize(position_ - point); }
-
 }  // namespace crescente::render

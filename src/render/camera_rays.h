@@ -15,8 +15,8 @@ public:
     // Through the point (x, y), in pixels from the top left corner; the direction has unit length, t_min is the near plane.
     geometry::Ray through(double x, double y) const;
 
-    // From a surface point that a camera ray met, back to the viewer; unit.
-    Vec3 to_viewer(Vec3 point) const;
+    // A place of the viewer from which a camera ray comes to the point.
+    Vec3 viewer_of(Vec3 point) const { return orthographic_ ? point - forward_ : position_; }
 
     Vec3 position() const { return position_; }
     Vec3 forward() const { return forward_; }

@@ -33,6 +33,15 @@ const char* word(Share share) {
     return "";
 }
 
+const char* word(Way way) {
+    switch (way) {
+        case Way::reflected: return "reflected";
+        case Way::refracted: return "refracted";
+        case Way::straight: return "straight";
+    }
+    return "";
+}
+
 void describe_node(const Tile& tile, const World& world, const std::vector<Rgb>& radiance, std::uint32_t index, const char* kind, int indent,
                    std::string& out) {
     const Node& node = tile.nodes[index];
@@ -59,11 +68,10 @@ void describe_node(const Tile& tile, const World& world, const std::vector<Rgb>&
         if (share == Share::filtered) out += " " + text(tile.filtered.at(key));
         out += ", strength " + text(world.lights[l].at(node.position).strength) + "\n";
     }
-    if (node.reflected != no_node) describe_node(tile, world, radiance, node.reflected, "reflected", indent + 1, out);
-    if (node.refracted != no_node) describe_node(tile, world, radiance, node.refracted, "refracted", indent + 1, out);
+    for_each_child(tile, index, [&](std::uint32_t child, Way way) { describe_node(tile, world, radiance, child, word(way), indent + 1, out); });
     for (const Pending& p : tile.pending) {
         if (p.parent == index) {
-            out += pad + "  " + (p.refracted ? "refracted" : "reflected") + " ray not grown: influence " + format("%.4g", double(p.influence)) + "\n";
+            out += pad + "  " + word(p.way) + " ray not grown: influence " + format("%.4g", double(p.influence)) + "\n";
         }
     }
 }

@@ -17,19 +17,22 @@ Rgb environment_irradiance(const scene::Environment& e, Vec3 normal) {
     return e.horizon + (e.zenith - e.horizon) * overlap(normal.y) + (e.nadir - e.horizon) * overlap(-normal.y);
 }
 
-Rgb reflect_environment(const scene::Environment& e, const Lobes& lobes, Vec3 normal, Vec3 to_viewer) {
+Rgb reflect_environment(const scene::Environment& e, const Lobes& lobes, Vec3 normal, Vec3 to_viewer, bool inside) {
     if (e.strength == 0) return {};
     const Rgb irradiance = environment_irradiance(e, normal);
     Rgb result = lobes.ambient_diffuse * irradiance;
-    if (const float blurred = 1 - lobes.mirror_share; blurred > 0 && !is_black(lobes.ambient_specular)) {
-        // Reflectance of the whole lobe (Karis 2014, "Physically Based Shading on Mobile": a fit of the split-sum integral).
-        const double n_v = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
-        const double r = lobes.roughness;
-        const double rx = 1 - r, ry = 0.0425 - 0.0275 * r, rz = 1.04 - 0.572 * r, rw = 0.022 * r - 0.04;
-        const double a = std::min(rx * rx, std::exp2(-9.28 * n_v)) * rx + ry;
-        const Rgb reflectance = lobes.ambient_specular * static_cast<float>(rz - 1.04 * a) + gray(static_cast<float>(1.04 * a + rw));
-        const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
-        result += reflectance * blurred * mix(environment_radiance(e, mirrored), environment_irradiance(e, mirrored), lobes.roughness);
+    if (lobes.layered()) {
+        const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
+        const SplitSum sum = split_sum(lobes.sums, cosine);
+        const float blurred = 1 - lobes.mirror_share;
+        // The layer lets in what neither the mirrored ray nor the blurred reflection takes.
+        const float mirrored_share = layer_mirrors(lobes, cosine, inside) * lobes.mirror_share;
+        result *= gray(1 - mirrored_share - (lobes.layer_f0 * sum.scale + sum.bias) * blurred);
+        if (blurred > 0 && !is_black(lobes.ambient_specular)) {
+            const Rgb reflectance = lobes.ambient_specular * sum.scale + gray(lobes.coverage * sum.bias);
+            const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
+            result += reflectance * blurred * mix(environment_radiance(e, mirrored), environment_irradiance(e, mirrored), lobes.roughness);
+        }
     }
     return result * static_cast<float>(e.strength);
 }

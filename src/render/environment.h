@@ -17,8 +17,8 @@ Rgb environment_radiance(const scene::Environment& environment, Vec3 direction);
 Rgb environment_irradiance(const scene::Environment& environment, Vec3 normal);
 
 // Radiance that a surface sends to the viewer (unit) by the light of the environment alone, without shadows: diffuse, and the
-// reflection that is too blurred for a mirrored ray.
-Rgb reflect_environment(const scene::Environment& environment, const Lobes& lobes, Vec3 normal, Vec3 to_viewer);
+// reflection that is too blurred for a mirrored ray. inside: the viewer is in the body.
+Rgb reflect_environment(const scene::Environment& environment, const Lobes& lobes, Vec3 normal, Vec3 to_viewer, bool inside);
 
 // The backdrop at a height in the picture, 0 bottom to 1 top.
 Rgb backdrop_radiance(const scene::Environment& environment, double height);

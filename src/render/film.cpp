@@ -125,11 +125,9 @@ void expose(const Tile& tile, const World& world, std::span<const scene::Level> 
             const Node& node = tile.nodes[root];
             set(8, {level});
             set(9, {double(tile.quads.empty() ? 1u : samples_in(tile, tile.quads[static_cast<std::size_t>(y) * tile.width + x]))});
-            // What reflections and refractions together weigh in the pixel.
+            // What the rays that go on from there together weigh in the pixel.
             Rgb left;
-            for (const std::uint32_t child : {node.reflected, node.refracted}) {
-                if (child != no_node) left += tile.nodes[child].weight;
-            }
+            for_each_child(tile, root, [&](std::uint32_t child, Way) { left += tile.nodes[child].weight; });
             set(7, {left.r, left.g, left.b});
             if (node.left_scene()) {
                 set(1, {std::numeric_limits<double>::infinity()});

@@ -13,7 +13,7 @@ std::size_t sum_columns(const Tile& tile, Length length) {
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
     return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.corners) + vector_bytes(tile.pending) + vector_bytes(tile.quads) +
-           vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.subpixel_roots);
+           vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
 }  // namespace
@@ -45,8 +45,7 @@ std::vector<Rgb> radiances(const Tile& tile) {
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
         const Node& node = tile.nodes[i];
         Rgb sum = node.local;
-        if (node.reflected != no_node) sum += tile.nodes[node.reflected].weight * result[node.reflected];
-        if (node.refracted != no_node) sum += tile.nodes[node.refracted].weight * result[node.refracted];
+        for_each_child(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child, Way) { sum += tile.nodes[child].weight * result[child]; });
         result[i] = node.parent == no_node ? sum * node.weight : sum;  // the camera may be in a medium
     }
     return result;

@@ -30,7 +30,7 @@ struct Node {
     std::uint32_t primitive = 0;
     std::uint32_t material = 0;      // index of lobes
     std::uint32_t parent = no_node;  // no_node: the root, ended by a camera ray
-    std::uint32_t reflected = no_node, refracted = no_node;  // children, after this node in the tile
+    std::uint32_t reflected = no_node, refracted = no_node;  // children, after this node in the tile; rare third ones: Tile::straight
     Rgb weight{1, 1, 1};             // of this node's radiance in the parent's; of a root's in its pixel
     Rgb local;                       // radiance towards the viewer, without the children
     std::uint8_t depth = 0;          // bounces
@@ -51,12 +51,19 @@ enum class Share : std::uint8_t {
     filtered,  // the RGB share is in Tile::filtered
 };
 
+// How a ray goes on from a surface.
+enum class Way : std::uint8_t {
+    reflected,
+    refracted,
+    straight,  // past the coverage of a surface that also refracts
+};
+
 // A ray that may still be grown.
 struct Pending {
     std::uint32_t parent;
     Rgb weight;
     float influence;  // largest component, at the pixel
-    bool refracted;
+    Way way;
 };
 
 // A pixel, or a part of one, with its corners: top left, top right, bottom left, bottom right (roots). Split ones have four parts in
@@ -72,6 +79,7 @@ struct Tile {
     std::vector<Node> nodes;
     std::vector<Share> shares;                             // lights of node i from i * lights
     std::unordered_map<std::uint64_t, Rgb> filtered;       // by node * lights + light
+    std::unordered_map<std::uint32_t, std::uint32_t> straight;  // children that rays past a node's coverage ended at, by node
     std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
     std::vector<Pending> pending;
     std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end
@@ -97,6 +105,16 @@ struct Tile {
     std::uint32_t& corner(int x, int y) { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
     std::uint32_t corner(int x, int y) const { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
 };
+
+// Calls visit(child, way) for the children of a node, in the order in which their light is added.
+template <class Visit>
+void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
+    const Node& parent = tile.nodes[node];
+    if (parent.reflected != no_node) visit(parent.reflected, Way::reflected);
+    if (parent.refracted != no_node) visit(parent.refracted, Way::refracted);
+    if (tile.straight.empty()) return;
+    if (const auto child = tile.straight.find(node); child != tile.straight.end()) visit(child->second, Way::straight);
+}
 
 // The product of the weights from the pixel down to the node.
 Rgb influence(const Tile& tile, std::uint32_t node);

@@ -1,9 +1,11 @@
 #include "render/growth.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "math/octahedral.h"
 #include "render/environment.h"
+#include "render/hit_surface.h"
 #include "render/medium.h"
 
 namespace crescente::render {
@@ -13,11 +15,16 @@ using accel::Coherence;
 using accel::Hit;
 using geometry::Ray;
 
-Vec3 normal_of(const Node& node) { return {node.normal[0], node.normal[1], node.normal[2]}; }
+// Starts on the side of `direction` of a surface, clear of it.
+Vec3Lanes starts(const Vec3Lanes& position, const Vec3Lanes& geometric_normal, const Lanes& offset, const Vec3Lanes& direction) {
+    return position + geometric_normal * (dot(geometric_normal, direction) >= 0.0 ? offset : -offset);
+}
 
-// A start on the side of `direction` of a surface, clear of it.
-Vec3 start(Vec3 position, Vec3 geometric_normal, double offset, Vec3 direction) {
-    return position + geometric_normal * (dot(geometric_normal, direction) >= 0 ? offset : -offset);
+// Eight rays that begin at their origins.
+void make_rays(const Vec3Lanes& origin, const Vec3Lanes& direction, const Lanes& t_max, Ray* rays) {
+    Lanes rows[lane_count] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, Lanes{}, t_max};
+    transpose(rows);
+    std::memcpy(static_cast<void*>(rays), rows, sizeof rows);
 }
 
 }  // namespace
@@ -53,93 +60,135 @@ std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<
     tile_.rays.camera += points.size();
     tile_.tests.box_tests += counts.box_tests;
     tile_.tests.shape_tests += counts.shape_tests;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        append(rays_[i], hits_[i], {}, 1 - points[i].y * scale / world_.camera.height());
+    seeds_.assign(points.size(), {});
+    append();
+    if (world_.environment.backdrop) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!hits_[i].found()) tile_.nodes[first + i].local = backdrop_radiance(world_.environment, 1 - points[i].y * scale / world_.camera.height());
+        }
     }
     return first;
 }
 
-void Growth::append(const Ray& ray, const Hit& hit, const Seed& seed, double picture_height) {
-    Node& node = tile_.nodes.emplace_back();
-    node.parent = seed.parent;
-    node.weight = seed.weight;
-    node.depth = seed.depth;
-    node.crossed = seed.crossed;
-    if (!hit.found()) {
-        node.position = ray.direction;
-        node.shadowed = true;
-        const bool backdrop = world_.environment.backdrop && seed.parent == no_node;
-        node.local = backdrop ? backdrop_radiance(world_.environment, picture_height) : environment_radiance(world_.environment, ray.direction);
-        return;
+// Nodes for rays_ and their hits_, with what they inherit from seeds_.
+void Growth::append() {
+    const std::size_t first = tile_.nodes.size();
+    tile_.nodes.resize(first + rays_.size());
+    for (std::size_t block = 0; block < rays_.size(); block += lane_count) {
+        const int count = static_cast<int>(std::min<std::size_t>(lane_count, rays_.size() - block));
+        unsigned found = 0;
+        for (int i = 0; i < count; ++i) found |= hits_[block + i].found() ? 1u << i : 0u;
+        const SurfaceLanes at = surfaces_at(world_, &rays_[block], &hits_[block], found);
+        const OctahedralPoint<Lanes> code = to_octahedral(at.geometric);
+        for (int i = 0; i < count; ++i) {
+            Node& node = tile_.nodes[first + block + i];
+            const Hit& hit = hits_[block + i];
+            const Seed& seed = seeds_[block + i];
+            node.parent = seed.parent;
+            node.weight = seed.weight;
+            node.depth = seed.depth;
+            node.crossed = seed.crossed;
+            if (!(found >> i & 1)) {
+                node.position = rays_[block + i].direction;
+                node.shadowed = true;
+                node.local = environment_radiance(world_.environment, node.position);
+                continue;
+            }
+            node.position = lane(at.position, i);
+            node.normal = {static_cast<float>(at.shading.x[i]), static_cast<float>(at.shading.y[i]), static_cast<float>(at.shading.z[i])};
+            node.geometric_normal = pack_octahedral(code.a[i], code.b[i]);
+            node.offset = static_cast<float>(at.offset[i]);
+            node.inside = at.inside >> i & 1;
+            node.instance = hit.instance;
+            node.primitive = hit.primitive;
+            node.material = at.material[i];
+            if (world_.absorbs) node.weight *= transmittance(world_, tile_, static_cast<std::uint32_t>(first + block + i), hit.t);
+        }
     }
-    const accel::Instance& instance = world_.instances[hit.instance];
-    const Ray local = accel::to_local(instance, ray);
-    const geometry::SurfacePoint surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
-    Vec3 geometric = surface.normal, shading = surface.shading_normal;
-    double error = surface.error;
-    node.position = surface.position;
-    if (!instance.identity) {
-        node.position = instance.to_world.point(surface.position);
-        geometric = normalize(instance.to_local.transposed(geometric));
-        shading = normalize(instance.to_local.transposed(shading));
-        const Affine& m = instance.to_world;
-        error *= std::max({length(m.x), length(m.y), length(m.z)}) * 1.7320508075688773;
-        error += 16 * std::numeric_limits<double>::epsilon() * max_component(abs(m.origin));
-    }
-    error += 16 * std::numeric_limits<double>::epsilon() * max_component(abs(node.position));
-    // Several times the bound: a ray must start so far off that its own intersection with the same surface, with the rounding of that
-    // computation, lies behind it.
-    node.offset = static_cast<float>(16 * error);
-    node.inside = dot(geometric, ray.direction) > 0;
-    if (node.inside) geometric = -geometric;
-    if (dot(shading, geometric) < 0) shading = -shading;
-    // An interpolated normal may turn from the viewer at silhouettes; bring it back to just visible.
-    if (const double facing = -dot(shading, ray.direction); facing < 1e-4) {
-        shading = normalize(shading - ray.direction * (1e-4 - facing));
-    }
-    node.normal = {static_cast<float>(shading.x), static_cast<float>(shading.y), static_cast<float>(shading.z)};
-    node.geometric_normal = encode_direction(geometric);
-    node.instance = hit.instance;
-    node.primitive = hit.primitive;
-    node.material = world_.material(hit.instance, surface.slot);
-    if (world_.absorbs) node.weight *= transmittance(world_, tile_, static_cast<std::uint32_t>(tile_.nodes.size() - 1), hit.t);
 }
 
-Vec3 Growth::to_viewer(const Node& node) const {
-    return node.parent == no_node ? world_.camera.to_viewer(node.position) : normalize(tile_.nodes[node.parent].position - node.position);
+// Collects what is needed to light the nodes, and to grow rays from them: points_.
+void Growth::gather(std::span<const std::uint32_t> nodes) {
+    points_.clear();
+    int filled = lane_count;
+    for (const std::uint32_t i : nodes) {
+        const Node& node = tile_.nodes[i];
+        if (node.left_scene()) continue;
+        if (filled == lane_count) {
+            points_.emplace_back();
+            filled = 0;
+        }
+        PointLanes& p = points_.back();
+        p.node[filled] = i;
+        set_lane(p.position, filled, node.position);
+        p.normal.x[filled] = node.normal[0], p.normal.y[filled] = node.normal[1], p.normal.z[filled] = node.normal[2];
+        p.code.a[filled] = octahedral_a(node.geometric_normal), p.code.b[filled] = octahedral_b(node.geometric_normal);
+        p.offset[filled] = node.offset;
+        // Where the viewer is seen from; in an orthographic picture all see it in one direction.
+        const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
+        set_lane(p.viewer, filled, viewer);
+        p.count = ++filled;
+    }
+    for (PointLanes& p : points_) {
+        p.viewer = normalize(p.viewer - p.position);
+        p.geometric = from_octahedral(OctahedralPoint<Lanes>{p.code.a / octahedral_scale, p.code.b / octahedral_scale});
+    }
 }
 
 void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence coherence) {
+    gather(nodes);
+    light_points(shadows, coherence);
+}
+
+void Growth::light_points(bool shadows, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
-    lit_.clear();
-    for (const std::uint32_t i : nodes) {
-        Node& node = tile_.nodes[i];
-        if (node.left_scene()) continue;
-        const Lobes& lobes = world_.lobes[node.material];
-        const Vec3 normal = normal_of(node), viewer = to_viewer(node);
-        lit_.push_back({i, &lobes, node.position, normal, decode_direction(node.geometric_normal), viewer, node.offset, {}, 0,
-                        lobes.emission + reflect_environment(world_.environment, lobes, normal, viewer)});
-        node.shadowed = node.shadowed || shadows;
+    for (PointLanes& p : points_) {
+        for (int i = 0; i < p.count; ++i) {
+            Node& node = tile_.nodes[p.node[i]];
+            const Lobes& lobes = world_.lobes[node.material];
+            p.lobes[i] = &lobes;
+            p.sum[i] = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
+            node.shadowed = node.shadowed || shadows;
+        }
     }
     for (std::size_t l = 0; l < lights; ++l) {
         const Light& light = world_.lights[l];
-        for (Lit& lit : lit_) {
-            lit.incident = light.at(lit.position);
-            lit.cosine = is_black(lit.incident.strength) ? 0 : dot(lit.normal, lit.incident.to_light);
+        if (is_black(light.color())) continue;
+        for (PointLanes& p : points_) {
+            p.reach = light.reach(p.position);
+            p.cosine = dot(p.normal, p.reach.to_light);
+            p.lit = bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0)) & ((1u << p.count) - 1);
         }
         if (shadows && light.casts_shadows()) trace_shadows(l, coherence);
-        for (Lit& lit : lit_) {
-            if (!(lit.cosine > 0)) continue;
-            const std::size_t key = std::size_t{lit.node} * lights + l;
-            const Share share = tile_.shares[key];
-            if (share == Share::blocked) continue;
-            Rgb strength = lit.incident.strength;
-            if (share == Share::filtered) strength *= tile_.filtered.at(key);
-            lit.sum += strength * reflect_light(*lit.lobes, lit.normal, lit.viewer, lit.incident.to_light, lit.cosine, light.makes_highlights());
+        for (PointLanes& p : points_) {
+            for (unsigned rest = p.lit; rest; rest &= rest - 1) {
+                const int i = __builtin_ctz(rest);
+                const std::size_t key = std::size_t{p.node[i]} * lights + l;
+                const Share share = tile_.shares[key];
+                if (share == Share::blocked) continue;
+                Rgb strength = light.color() * static_cast<float>(p.reach.factor[i]);
+                if (share == Share::filtered) strength *= tile_.filtered.at(key);
+                p.sum[i] += strength * reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i],
+                                                     light.makes_highlights());
+            }
         }
     }
-    for (const Lit& lit : lit_) tile_.nodes[lit.node].local = lit.sum;
+    for (const PointLanes& p : points_) {
+        for (int i = 0; i < p.count; ++i) tile_.nodes[p.node[i]].local = p.sum[i];
+    }
+}
+
+// The shadow cache: whether what stood in the way of the last ray of this light and depth stands in the way of this one.
+bool Growth::occluded_as_last(std::size_t light, std::uint8_t depth, const Ray& ray) {
+    const Hit& last = last_occluder_[light * 256 + depth];
+    if (!last.found()) return false;
+    const accel::Instance& instance = world_.instances[last.instance];
+    Hit hit;
+    accel::nearest_in_part(instance, last.instance, accel::part_of(instance, last.primitive), accel::to_local(instance, ray), hit);
+    ++tile_.tests.shape_tests;
+    tile_.tests.shadow_cache_hits += hit.found();
+    return hit.found();
 }
 
 void Growth::trace_shadows(std::size_t light, Coherence coherence) {
@@ -148,33 +197,24 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     if (settings_.shadow_cache) last_occluder_.resize(lights * 256);
     rays_.clear();
     shadow_nodes_.clear();
-    for (const Lit& lit : lit_) {
-        Share& share = tile_.shares[std::size_t{lit.node} * lights + light];
-        if (!(lit.cosine > 0)) {
-            share = Share::behind;
-            continue;
+    for (PointLanes& p : points_) {
+        for (int i = 0; i < p.count; ++i) {
+            if (!(p.lit >> i & 1)) tile_.shares[std::size_t{p.node[i]} * lights + light] = Share::behind;
         }
-        Ray ray;
-        ray.origin = start(lit.position, lit.geometric, lit.offset, lit.incident.to_light);
-        ray.direction = lit.incident.to_light;
-        ray.t_max = lit.incident.distance * (1 - 1e-12) - 2 * lit.offset;  // short of a surface that the lamp lies in
-        ++tile_.rays.shadow;
-        if (settings_.shadow_cache) {
-            const Hit& last = last_occluder_[light * 256 + tile_.nodes[lit.node].depth];
-            if (last.found()) {
-                const accel::Instance& instance = world_.instances[last.instance];
-                Hit hit;
-                accel::nearest_in_part(instance, last.instance, accel::part_of(instance, last.primitive), accel::to_local(instance, ray), hit);
-                ++counts.shape_tests;
-                if (hit.found()) {
-                    share = Share::blocked;
-                    ++tile_.tests.shadow_cache_hits;
-                    continue;
-                }
+        if (!p.lit) continue;
+        alignas(64) Ray rays[lane_count];
+        // Short of a surface that the lamp lies in.
+        make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
+        tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(p.lit));
+        for (unsigned rest = p.lit; rest; rest &= rest - 1) {
+            const int i = __builtin_ctz(rest);
+            if (settings_.shadow_cache && occluded_as_last(light, tile_.nodes[p.node[i]].depth, rays[i])) {
+                tile_.shares[std::size_t{p.node[i]} * lights + light] = Share::blocked;
+                continue;
             }
+            rays_.push_back(rays[i]);
+            shadow_nodes_.push_back(p.node[i]);
         }
-        rays_.push_back(ray);
-        shadow_nodes_.push_back(lit.node);
     }
     hits_.resize(rays_.size());
     crossings_.clear();
@@ -203,62 +243,89 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     }
 }
 
-void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) const {
-    for (const std::uint32_t i : nodes) {
-        const Node& node = tile_.nodes[i];
-        if (node.left_scene() || node.depth >= settings_.depth) continue;
-        const Lobes& lobes = world_.lobes[node.material];
-        if (!lobes.mirrors() && !lobes.refracts()) continue;
-        const double cosine = std::clamp(dot(normal_of(node), to_viewer(node)), 0.0, 1.0);
-        const ChildWeights weights = child_weights(lobes, cosine, node.inside);
-        const Rgb above = influence(tile_, i);
-        if (!is_black(weights.reflected)) pending.push_back({i, weights.reflected, max_component(above * weights.reflected), false});
-        if (!is_black(weights.refracted)) pending.push_back({i, weights.refracted, max_component(above * weights.refracted), true});
+void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) {
+    gather(nodes);
+    spawn_from_points(pending);
+}
+
+void Growth::spawn_from_points(std::vector<Pending>& pending) const {
+    for (const PointLanes& p : points_) {
+        const Lanes cosines = lesser(greater(dot(p.normal, p.viewer), Lanes{}), Lanes{} + 1.0);
+        for (int i = 0; i < p.count; ++i) {
+            const Node& node = tile_.nodes[p.node[i]];
+            const Lobes& lobes = world_.lobes[node.material];
+            if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
+            const ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
+            const Rgb above = influence(tile_, p.node[i]);
+            if (!is_black(weights.reflected)) pending.push_back({p.node[i], weights.reflected, max_component(above * weights.reflected), Way::reflected});
+            if (!is_black(weights.refracted)) pending.push_back({p.node[i], weights.refracted, max_component(above * weights.refracted), Way::refracted});
+            if (!is_black(lobes.straight)) pending.push_back({p.node[i], lobes.straight, max_component(above * lobes.straight), Way::straight});
+        }
     }
 }
 
 void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) {
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
-    std::vector<Ray> rays;
-    std::vector<Seed> seeds;
+    parents_.clear();
+    for (const Pending& p : pending) parents_.push_back(p.parent);
+    gather(parents_);
+    rays_.resize((pending.size() + lane_count - 1) / lane_count * lane_count);
+    seeds_.clear();
     bool coherent = true;
-    for (const Pending& p : pending) {
-        const Node& node = tile_.nodes[p.parent];
-        const Lobes& lobes = world_.lobes[node.material];
-        const Vec3 normal = normal_of(node), geometric = decode_direction(node.geometric_normal), viewer = to_viewer(node);
-        const double cosine = dot(normal, viewer);
-        Ray ray;
-        if (p.refracted) {
-            const double eta = node.inside ? lobes.ior : 1 / lobes.ior;  // index in front over index behind
-            const double sin2 = eta * eta * std::max(0.0, 1 - cosine * cosine);
-            ray.direction = normalize(viewer * -eta + normal * (eta * cosine - std::sqrt(std::max(0.0, 1 - sin2))));
-            ++tile_.rays.refracted;
-        } else {
-            ray.direction = normalize(normal * (2 * cosine) - viewer);
-            // Interpolated normals can send a reflection into the surface: lift it to just above.
-            if (const double above = dot(ray.direction, geometric); above < 1e-4) ray.direction = normalize(ray.direction + geometric * (1e-4 - above));
-            ++tile_.rays.reflected;
+    for (std::size_t block = 0; block < points_.size(); ++block) {
+        const PointLanes& p = points_[block];
+        const Lanes cosine = dot(p.normal, p.viewer);
+        Lanes eta = Lanes{} + 1.0;  // index in front over index behind
+        unsigned refracted = 0, straight = 0;
+        for (int i = 0; i < p.count; ++i) {
+            const Pending& from = pending[block * lane_count + i];
+            const Node& node = tile_.nodes[from.parent];
+            const Lobes& lobes = world_.lobes[node.material];
+            if (from.way == Way::refracted) {
+                refracted |= 1u << i;
+                eta[i] = node.inside ? lobes.ior : 1 / lobes.ior;
+            }
+            if (from.way == Way::straight) straight |= 1u << i;
+            seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(node.depth + 1), from.way != Way::reflected});
+            coherent = coherent && node.depth == 0;
         }
-        ray.origin = start(node.position, geometric, node.offset, ray.direction);
-        rays.push_back(ray);
-        seeds.push_back({p.parent, p.weight, static_cast<std::uint8_t>(node.depth + 1), p.refracted});
-        coherent = coherent && node.depth == 0;
+        Vec3Lanes direction = normalize(p.normal * (2.0 * cosine) - p.viewer);
+        // Interpolated normals can send a reflection into the surface: lift it to just above.
+        const Lanes above = dot(direction, p.geometric);
+        if (bits_of(above < 1e-4)) direction = select(above < 1e-4, normalize(direction + p.geometric * (1e-4 - above)), direction);
+        if (refracted) {
+            const Lanes zero{}, sin2 = eta * eta * greater(1.0 - cosine * cosine, zero);
+            const Vec3Lanes through = normalize(p.normal * (eta * cosine - square_root(greater(1.0 - sin2, zero))) - p.viewer * eta);
+            direction = blend(refracted, through, direction);
+        }
+        if (straight) direction = blend(straight, -p.viewer, direction);
+        make_rays(starts(p.position, p.geometric, p.offset, direction), direction, Lanes{} + std::numeric_limits<double>::infinity(),
+                  &rays_[block * lane_count]);
+        const int through = __builtin_popcount(refracted | straight);
+        tile_.rays.refracted += static_cast<unsigned>(through);
+        tile_.rays.reflected += static_cast<unsigned>(p.count - through);
     }
-    hits_.resize(rays.size());
+    rays_.resize(pending.size());
+    hits_.resize(rays_.size());
     accel::TestCounts counts;
     const Coherence coherence = coherent ? Coherence::coherent : Coherence::incoherent;
-    world_.accelerator->nearest(rays, hits_, coherence, counts);
+    world_.accelerator->nearest(rays_, hits_, coherence, counts);
     tile_.tests.box_tests += counts.box_tests;
     tile_.tests.shape_tests += counts.shape_tests;
-    fresh_.resize(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        append(rays[i], hits_[i], seeds[i], 0);
+    append();
+    fresh_.resize(rays_.size());
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
         fresh_[i] = first + static_cast<std::uint32_t>(i);
         Node& parent = tile_.nodes[pending[i].parent];
-        (pending[i].refracted ? parent.refracted : parent.reflected) = fresh_[i];
+        switch (pending[i].way) {
+            case Way::reflected: parent.reflected = fresh_[i]; break;
+            case Way::refracted: parent.refracted = fresh_[i]; break;
+            case Way::straight: tile_.straight.emplace(pending[i].parent, fresh_[i]); break;
+        }
     }
-    light(fresh_, settings_.level >= scene::Level::shadows, coherence);
-    spawn(fresh_, next);
+    gather(fresh_);
+    light_points(settings_.level >= scene::Level::shadows, coherence);
+    spawn_from_points(next);
 }
 
 bool Growth::grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline) {

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "math/octahedral.h"
 #include "render/deadline.h"
 #include "render/forest.h"
 #include "render/world.h"
@@ -37,7 +38,7 @@ public:
     void light(std::span<const std::uint32_t> nodes, bool shadows, accel::Coherence coherence);
 
     // Appends to `pending` the rays that nodes spawn, if the depth bound lets them.
-    void spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) const;
+    void spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending);
 
     // Traces pending rays into child nodes with their light, and appends the rays that these spawn to `next`.
     void grow(std::span<const Pending> rays, std::vector<Pending>& next);
@@ -53,18 +54,25 @@ private:
         std::uint8_t depth = 0;
         bool crossed = false;
     };
-    void append(const geometry::Ray& ray, const accel::Hit& hit, const Seed& seed, double picture_height);
-    struct Lit {  // a hit whose light is being summed, with what every light needs to know of it
-        std::uint32_t node;
-        const Lobes* lobes;
-        Vec3 position, normal, geometric, viewer;
-        double offset;
-        Incident incident;  // of the current light
-        double cosine = 0;
-        Rgb sum;
+    struct PointLanes {  // eight hits that are being lit, or grow rays
+        int count = 0;
+        std::uint32_t node[lane_count];
+        Vec3Lanes position, normal, geometric, viewer;
+        OctahedralPoint<Lanes> code;  // of the geometric normal, in steps
+        Lanes offset;
+        const Lobes* lobes[lane_count];
+        Rgb sum[lane_count];
+        // Of the current light:
+        Reach<Lanes> reach;
+        Lanes cosine;
+        unsigned lit;  // lanes that it reaches, if nothing stands in the way
     };
+    void append();
+    void gather(std::span<const std::uint32_t> nodes);
+    void light_points(bool shadows, accel::Coherence coherence);
+    void spawn_from_points(std::vector<Pending>& pending) const;
+    bool occluded_as_last(std::size_t light, std::uint8_t depth, const geometry::Ray& ray);
     void trace_shadows(std::size_t light, accel::Coherence coherence);
-    Vec3 to_viewer(const Node& node) const;
 
     const World& world_;
     const scene::Settings& settings_;
@@ -74,7 +82,9 @@ private:
     // Scratch, kept between chunks.
     std::vector<geometry::Ray> rays_;
     std::vector<accel::Hit> hits_;
-    std::vector<Lit> lit_;
+    std::vector<Seed> seeds_;
+    std::vector<PointLanes> points_;
+    std::vector<std::uint32_t> parents_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;
     std::vector<std::uint32_t> fresh_;

@@ -19,7 +19,9 @@ bool advance_reflections(Growth& growth, const Stage& stage, const Deadline& dea
     if (tile.todo.empty()) {  // the first band begins with the camera's own hits
         tile.todo.resize(tile.nodes.size());
         std::iota(tile.todo.begin(), tile.todo.end(), 0u);
-        growth.spawn(tile.todo, tile.pending);
+        for (std::size_t i = 0; i < tile.todo.size(); i += chunk_size) {
+            growth.spawn(std::span(tile.todo).subspan(i, std::min(chunk_size, tile.todo.size() - i)), tile.pending);
+        }
         tile.todo.resize(1);  // marks that it was done
     }
     return growth.grow_above(tile.pending, stage.parameter, deadline);

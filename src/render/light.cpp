@@ -13,48 +13,65 @@ Light::Light(const scene::Light& light)
       cos_scale_(1 / std::max(0.001, std::cos(light.inner_angle) - std::cos(light.outer_angle))) {}
 
 Incident Light::at(Vec3 point) const {
-    if (light_.kind == scene::LightKind::directional) return {-axis_, std::numeric_limits<double>::infinity(), color_};
-    const Vec3 path = light_.position - point;
-    const double distance = length(path);
-    if (!(distance > 0)) return {{0, 1, 0}, 0, {}};
-    Incident incident{path / distance, distance, {}};
-    double factor = falloff(distance);
-    if (oriented_ && factor > 0) factor *= cone(-dot(incident.to_light, axis_));
-    incident.strength = color_ * static_cast<float>(factor);
-    return incident;
+    const Reach<double> one = reach(vec_of(point));
+    return {vec3(one.to_light), one.distance, color_ * static_cast<float>(one.factor)};
 }
 
+template <class T>
+Reach<T> Light::reach(const VecOf<T>& point) const {
+    if (light_.kind == scene::LightKind::directional) {
+        const VecOf<T> back{T{} - axis_.x, T{} - axis_.y, T{} - axis_.z};
+        return {back, T{} + std::numeric_limits<double>::infinity(), T{} + 1.0};
+    }
+    const VecOf<T> path{light_.position.x - point.x, light_.position.y - point.y, light_.position.z - point.z};
+    const T distance = length(path);
+    const auto apart = distance > 0.0;
+    const T unit = apart ? distance : T{} + 1.0;
+    Reach<T> at{{path.x / unit, path.y / unit, path.z / unit}, distance, falloff(unit)};
+    if (oriented_) at.factor *= cone(T(-(at.to_light.x * axis_.x + at.to_light.y * axis_.y + at.to_light.z * axis_.z)));
+    at.factor = apart ? at.factor : T{};
+    return at;
+}
+
+template Reach<double> Light::reach(const VecOf<double>&) const;
+template Reach<Lanes> Light::reach(const VecOf<Lanes>&) const;
+
 // Share of full strength at the angle of this cosine from the axis.
-double Light::cone(double cosine) const {
-    if (cosine <= cos_outer_) return 0;
+template <class T>
+T Light::cone(const T& cosine) const {
+    const auto within = cosine > cos_outer_;
     switch (light_.gradient) {
         case scene::Gradient::smooth: {
-            const double ramp = std::clamp((cosine - cos_outer_) * cos_scale_, 0.0, 1.0);
-            return ramp * ramp;
+            const T ramp = lesser(greater(T((cosine - cos_outer_) * cos_scale_), T{}), T{} + 1.0);
+            return within ? ramp * ramp : T{};
         }
         case scene::Gradient::linear: {
             const double width = std::max(1e-9, light_.outer_angle - light_.inner_angle);
-            return std::clamp((light_.outer_angle - std::acos(std::min(1.0, cosine))) / width, 0.0, 1.0);
+            const T angle = lane_by_lane(cosine, [](double c) { return std::acos(std::min(1.0, c)); });
+            return within ? lesser(greater(T((light_.outer_angle - angle) / width), T{}), T{} + 1.0) : T{};
         }
-        case scene::Gradient::power: return std::pow(std::max(0.0, cosine), light_.exponent);
+        case scene::Gradient::power: {
+            return within ? lane_by_lane(cosine, [this](double c) { return std::pow(std::max(0.0, c), light_.exponent); }) : T{};
+        }
     }
-    return 0;
+    return T{};
 }
 
-double Light::falloff(double distance) const {
-    double factor = 1;
+template <class T>
+T Light::falloff(const T& distance) const {
+    T factor = T{} + 1.0;
     switch (light_.falloff) {
         case scene::Falloff::none: break;
-        case scene::Falloff::inverse_square: factor = 1 / (distance * distance); break;
+        case scene::Falloff::inverse_square: factor = 1.0 / (distance * distance); break;
         case scene::Falloff::classic: {
-            const double denominator = light_.constant + light_.linear * distance + light_.quadratic * distance * distance;
-            factor = denominator > 1 ? 1 / denominator : 1;
+            const T denominator = light_.constant + light_.linear * distance + light_.quadratic * distance * distance;
+            factor = 1.0 / greater(denominator, T{} + 1.0);
             break;
         }
     }
     if (light_.range > 0) {
-        const double r = distance / light_.range, r2 = r * r;
-        factor *= std::clamp(1 - r2 * r2, 0.0, 1.0);
+        const T r = distance / light_.range, r2 = r * r;
+        factor *= greater(T(1.0 - r2 * r2), T{});
     }
     return factor;
 }

@@ -2,14 +2,22 @@
 #pragma once
 
 #include "math/color.h"
-#include "math/vec.h"
+#include "math/vec_lanes.h"
 #include "scene/light.h"
 
 namespace crescente::render {
 
 using namespace math;
 
-// What a light sends to a point, before anything stands in its way.
+// How a light reaches a point (T = double), or eight points (T = Lanes), before anything stands in its way.
+template <class T>
+struct Reach {
+    VecOf<T> to_light;  // unit
+    T distance;         // infinite for directional lights
+    T factor;           // of the light's color; 0: the point is outside its cone or range
+};
+
+// The same for one point, with the light's color.
 struct Incident {
     Vec3 to_light;        // unit
     double distance = 0;  // infinite for directional lights
@@ -21,12 +29,17 @@ public:
     explicit Light(const scene::Light& light);
 
     Incident at(Vec3 point) const;
+    template <class T>
+    Reach<T> reach(const VecOf<T>& point) const;
+    Rgb color() const { return color_; }
     bool casts_shadows() const { return light_.shadows; }
     bool makes_highlights() const { return light_.highlights; }
 
 private:
-    double cone(double cosine) const;
-    double falloff(double distance) const;
+    template <class T>
+    T cone(const T& cosine) const;
+    template <class T>
+    T falloff(const T& distance) const;
 
     scene::Light light_;
     Vec3 axis_;

@@ -33,32 +33,37 @@ Lobes compile_classic(const scene::ClassicMaterial& m) {
 
 Lobes compile_physical(const scene::PhysicalMaterial& m) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
-    const auto transmission = static_cast<float>(m.transmission) * (1 - metallic);
+    const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
     const double r0 = (m.ior - 1) / (m.ior + 1);
     Lobes lobes;
     lobes.emission = m.emissive * opacity;
-    const Rgb diffuse = m.base_color * ((1 - metallic) * (1 - transmission) * opacity);
+    lobes.coverage = opacity;
+    const Rgb diffuse = m.base_color * (dielectric * (1 - static_cast<float>(m.transmission)) * opacity);
     lobes.diffuse = diffuse * static_cast<float>(1 / pi);
     lobes.ambient_diffuse = diffuse;
     lobes.albedo = m.base_color;
-    const Rgb f0 = mix(gray(static_cast<float>(r0 * r0)), m.base_color, metallic) * opacity;
+    lobes.layer_f0 = static_cast<float>(r0 * r0);
+    const Rgb f0 = mix(gray(lobes.layer_f0), m.base_color, metallic) * opacity;
     lobes.roughness = static_cast<float>(m.roughness);
     lobes.alpha = std::max(0.002f, lobes.roughness * lobes.roughness);
+    lobes.sums = split_sums(lobes.alpha);
     lobes.highlight = f0;
     lobes.highlight_lobe = HighlightLobe::ggx;
-    lobes.mirror_share = mirror_share_of(m.roughness);
-    lobes.ambient_specular = f0;
     if (transmission > 0) {
         lobes.fresnel = Fresnel::dielectric;
-        lobes.mirror = gray(1);
+        lobes.mirror = gray(dielectric * opacity);
         lobes.mirror_share = 1;
-        lobes.refraction = m.base_color * transmission;
+        lobes.metal_share = metallic * opacity;
+        lobes.metal = m.base_color * lobes.metal_share;
+        lobes.refraction = m.base_color * (transmission * opacity);
+        lobes.straight = gray(1 - opacity);
         lobes.ior = m.ior;
         lobes.attenuation = m.attenuation;
-        lobes.ambient_specular = {};
     } else {
         lobes.fresnel = Fresnel::schlick;
+        lobes.mirror_share = mirror_share_of(m.roughness);
         if (lobes.mirror_share > 0) lobes.mirror = f0;
+        lobes.ambient_specular = f0;
         lobes.refraction = gray(1 - opacity);
     }
     // Light through a pane loses about one Fresnel reflection at each crossing.
@@ -66,15 +71,37 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
     return lobes;
 }
 
-// Trowbridge-Reitz distribution with the height-correlated Smith term (Walter et al. 2007; Heitz 2014), Schlick's Fresnel.
+// Schlick's approximation of Fresnel's equations (1994), from f0 to f90.
+float fifth_power(double m) { return static_cast<float>(m * m * m * m * m); }
+Rgb schlick(Rgb f0, float f90, double cosine) { return f0 + (gray(f90) - f0) * fifth_power(1 - cosine); }
+
+// Trowbridge-Reitz distribution with the height-correlated Smith term (Walter et al. 2007; Heitz 2014).
 Rgb ggx(const Lobes& lobes, double n_v, double n_l, double n_h, double v_h) {
     const double a2 = double(lobes.alpha) * lobes.alpha;
     const double d = n_h * n_h * (a2 - 1) + 1;
     const double distribution = a2 / (pi * d * d);
     const double smith = n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2);
-    const double m = 1 - v_h, m5 = m * m * m * m * m;
-    const Rgb f = lobes.highlight + (gray(1) - lobes.highlight) * static_cast<float>(m5);
-    return f * static_cast<float>(distribution * 0.5 / std::max(smith, 1e-9) * n_l);
+    return schlick(lobes.highlight, lobes.coverage, v_h) * static_cast<float>(distribution * 0.5 / std::max(smith, 1e-9) * n_l);
+}
+
+// What a rough layer reflects of all the light that comes from one direction.
+float layer_reflectance(const Lobes& lobes, double cosine) {
+    const SplitSum sum = split_sum(lobes.sums, cosine);
+    return sum.scale * lobes.layer_f0 + sum.bias;
+}
+
+Rgb reflect_light_physical(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
+    // Cosines of the half vector, without computing it: the sum of two unit vectors is twice as long as its projection on either.
+    const double facing = dot(normal, to_viewer), n_v = std::clamp(facing, 1e-4, 1.0);
+    const double v_h = std::sqrt(std::clamp(0.5 + 0.5 * dot(to_viewer, to_light), 1e-12, 1.0));
+    Rgb result;
+    if (!is_black(lobes.diffuse)) {
+        const float fresnel = lobes.layer_f0 + (1 - lobes.layer_f0) * fifth_power(1 - v_h);
+        const float kept = std::max({fresnel, layer_reflectance(lobes, n_v), layer_reflectance(lobes, cosine)});
+        result = lobes.diffuse * (static_cast<float>(cosine) * (1 - kept));
+    }
+    if (with_highlight) result += ggx(lobes, n_v, cosine, std::clamp((facing + cosine) / (2 * v_h), 0.0, 1.0), v_h);
+    return result;
 }
 
 }  // namespace
@@ -85,6 +112,7 @@ Lobes compile(const scene::Material& material) {
 }
 
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
+    if (lobes.layered()) return reflect_light_physical(lobes, normal, to_viewer, to_light, cosine, with_highlight);
     Rgb result = lobes.diffuse * static_cast<float>(cosine);
     if (!with_highlight || lobes.highlight_lobe == HighlightLobe::none) return result;
     if (lobes.highlight_lobe == HighlightLobe::phong) {
@@ -92,10 +120,8 @@ Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light
         if (mirrored > 0) result += lobes.highlight * std::pow(static_cast<float>(mirrored), lobes.exponent);
         return result;
     }
-    const Vec3 half = normalize(to_light + to_viewer);
-    const double n_h = std::max(0.0, dot(normal, half));
-    if (lobes.highlight_lobe == HighlightLobe::blinn) return result + lobes.highlight * std::pow(static_cast<float>(n_h), lobes.exponent);
-    return result + ggx(lobes, std::max(1e-4, dot(normal, to_viewer)), cosine, n_h, std::max(0.0, dot(to_viewer, half)));
+    const double n_h = std::max(0.0, dot(normal, normalize(to_light + to_viewer)));
+    return result + lobes.highlight * std::pow(static_cast<float>(n_h), lobes.exponent);
 }
 
 double fresnel_dielectric(double cosine, double eta) {
@@ -105,6 +131,11 @@ double fresnel_dielectric(double cosine, double eta) {
     const double parallel = (eta * cosine - transmitted) / (eta * cosine + transmitted);
     const double perpendicular = (cosine - eta * transmitted) / (cosine + eta * transmitted);
     return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}
+
+float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {
+    if (lobes.fresnel != Fresnel::dielectric) return schlick(gray(lobes.layer_f0), 1, cosine).r;
+    return static_cast<float>(fresnel_dielectric(cosine, inside ? 1 / lobes.ior : lobes.ior));
 }
 
 ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
@@ -119,14 +150,12 @@ ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
         case Fresnel::dielectric: {
             const auto f = static_cast<float>(fresnel_dielectric(cosine, eta));
             weights = {lobes.mirror * f, lobes.refraction * (1 - f)};
+            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine);
             break;
         }
-        case Fresnel::schlick: {
-            if (!lobes.mirrors()) break;
-            const double m = 1 - cosine, m5 = m * m * m * m * m;
-            weights.reflected = (lobes.mirror + (gray(1) - lobes.mirror) * static_cast<float>(m5)) * lobes.mirror_share;
+        case Fresnel::schlick:
+            if (lobes.mirrors()) weights.reflected = schlick(lobes.mirror, lobes.coverage, cosine) * lobes.mirror_share;
             break;
-        }
     }
     return weights;
 }

@@ -5,6 +5,7 @@
 
 #include "math/color.h"
 #include "math/vec.h"
+#include "render/split_sum.h"
 #include "scene/material.h"
 
 namespace crescente::render {
@@ -25,9 +26,15 @@ struct Lobes {
     HighlightLobe highlight_lobe = HighlightLobe::none;
     float exponent = 0;      // phong, blinn
     float alpha = 1;         // ggx roughness
+    float coverage = 1;      // what Schlick's terms rise to at grazing angles
+    float layer_f0 = 0;      // of the dielectric layer over the diffuse lobe of physical materials
+    SplitSums sums;          // physical: reflectance of the whole ggx lobe
     Rgb mirror;              // weight of the reflected ray; with schlick: f0
+    Rgb metal;               // dielectric: f0 of a metal beside it, rising to metal_share (Schlick)
+    float metal_share = 0;
     float mirror_share = 0;  // schlick: how much of the reflection the mirror ray carries; the rest is the environment's blur
     Rgb refraction;          // weight of the refracted ray
+    Rgb straight;            // weight of a ray that passes on beside the refracted one: what the coverage leaves
     double ior = 1;
     Rgb attenuation;         // 1/m inside
     Fresnel fresnel = Fresnel::none;
@@ -40,12 +47,21 @@ struct Lobes {
     bool opaque() const { return is_black(shadow_filter); }
     bool mirrors() const { return !is_black(mirror); }
     bool refracts() const { return !is_black(refraction); }
+    bool goes_on() const { return mirrors() || refracts() || !is_black(straight); }  // some ray may leave
+    bool layered() const { return highlight_lobe == HighlightLobe::ggx; }            // diffuse light is what a reflecting layer lets in
 };
 
 Lobes compile(const scene::Material& material);
 
+// Share of light that the smooth layer of a physical material's dielectric mirrors: what its mirrored ray weighs, its coverage and metal aside.
+float layer_mirrors(const Lobes& lobes, double cosine, bool inside);
+
 // Light arriving from direction `to_light` (unit) with the given strength, leaving towards `to_viewer` (unit): radiance per unit of
 // strength. Both are on the side of the shading normal; cosine = dot(normal, to_light) > 0.
+//
+// Physical materials: glTF 2.0, appendix B. The dielectric's layer lets 1 - F through to the diffuse lobe, F taken at the half vector. That alone
+// would give back up to 1.3 times the light at grazing angles, where the lobe reflects more than that F; so no more passes than the layer's
+// whole reflectance leaves, seen from either end (as KHR_materials_sheen scales by albedo).
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight);
 
 // Share of light reflected by a smooth dielectric, unpolarised (Fresnel 1823). cosine: of the angle of incidence, >= 0. eta: index

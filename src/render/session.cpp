@@ -1,6 +1,7 @@
 #include "render/session.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "parallel/pool.h"
 #include "render/describe.h"
@@ -25,6 +26,8 @@ struct Session::State {
     double build_seconds = 0, render_seconds = 0;
     std::uint64_t peak_bytes = 0, drops = 0;
     std::atomic<std::uint64_t> dropped_bytes = 0, dropped_nodes = 0;  // of finished tiles that were not kept
+    std::mutex spare_mutex;
+    std::vector<std::vector<Node>> spare_nodes;  // memory of dropped tiles, for the next ones
 
     int tiles_across() const { return (width() + tile_size() - 1) / tile_size(); }
     int width() const { return world->scene.settings.width; }
@@ -34,7 +37,9 @@ struct Session::State {
     void plan();
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
     Tile regrown(const Tile& tile) const;
-    static void drop(Tile& tile);
+    static std::vector<Node> drop(Tile& tile);  // gives the memory of its nodes
+    void take_spare(Tile& tile);
+    void drop_finished(Tile& tile);
     std::vector<TileState> tile_states() const;
     Progress progress(const std::vector<TileState>& states) const;
 };
@@ -95,13 +100,38 @@ Tile Session::State::regrown(const Tile& tile) const {
     return copy;
 }
 
-void Session::State::drop(Tile& tile) {
+std::vector<Node> Session::State::drop(Tile& tile) {
     Tile rest = blank_tile(tile);
     rest.pixels_stage = tile.shown_stage();
     rest.pixels = develop(tile);
     rest.rays = tile.rays;
     rest.tests = tile.tests;
+    std::vector<Node> nodes = std::move(tile.nodes);
     tile = std::move(rest);
+    return nodes;
+}
+
+// The first picture's few nodes move to memory that has room for all of the tile's.
+void Session::State::take_spare(Tile& tile) {
+    if (tile.stage != 1) return;
+    std::vector<Node> spare;
+    {
+        const std::lock_guard lock(spare_mutex);
+        if (spare_nodes.empty()) return;
+        spare = std::move(spare_nodes.back());
+        spare_nodes.pop_back();
+    }
+    spare.assign(tile.nodes.begin(), tile.nodes.end());
+    tile.nodes = std::move(spare);
+}
+
+void Session::State::drop_finished(Tile& tile) {
+    dropped_bytes += tile.filled_bytes();
+    dropped_nodes += tile.nodes.size();
+    std::vector<Node> nodes = drop(tile);
+    nodes.clear();
+    const std::lock_guard lock(spare_mutex);
+    spare_nodes.push_back(std::move(nodes));
 }
 
 std::vector<TileState> Session::State::tile_states() const {
@@ -168,6 +198,7 @@ Progress Session::advance(const Deadline& deadline) {
             if (deadline.passed()) return;
             Tile& tile = s.tiles[work[i].tile];
             tile.going_on = ceiling > 0 && work[i].until == stages;
+            if (!keep && work[i].until == stages) s.take_spare(tile);
             if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
             tile.going_on = false;
             if (keep) {
@@ -175,9 +206,7 @@ Progress Session::advance(const Deadline& deadline) {
                 tile.pixels_stage = -1;
                 return tile.trim();
             }
-            s.dropped_bytes += tile.filled_bytes();
-            s.dropped_nodes += tile.nodes.size();
-            State::drop(tile);
+            s.drop_finished(tile);
         });
         const RayCounts after = rays_of();
         RayCounts& rays = s.level_rays[level];

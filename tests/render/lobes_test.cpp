@@ -94,9 +94,8 @@ TEST(Highlights, PhysicalOnesAreReciprocal) {
 }
 
 // What a surface sends to the viewer when light of strength 1 comes from everywhere.
-double directional_albedo(const Lobes& lobes, double view) {
+double directional_albedo(const Lobes& lobes, double view, int n = 400) {
     const Vec3 v = direction(view, 0);
-    constexpr int n = 400;
     double sum = 0;
     for (int i = 0; i < n; ++i) {
         const double theta = (i + 0.5) / n * pi / 2;
@@ -121,6 +120,55 @@ TEST(Highlights, MetalGivesBackNoMoreThanItGets) {
     PhysicalMaterial roughest;  // facets in every direction alike
     roughest.base_color = {1, 1, 1}, roughest.metallic = 1, roughest.roughness = 1;
     EXPECT_NEAR(directional_albedo(compiled(roughest), 0), 1 - std::log(2), 2e-4);
+}
+
+TEST(Layer, ReflectanceIsTheIntegralOfTheLobe) {
+    for (const double roughness : {0.3, 0.5, 0.75, 1.0}) {
+        for (const double f0 : {0.02, 0.04, 0.2, 1.0}) {
+            for (const double view : {0.05, 0.5, 0.9, 1.2, 1.4, 1.5}) {
+                PhysicalMaterial metal;
+                metal.base_color = gray(float(f0)), metal.metallic = 1, metal.roughness = roughness;
+                const SplitSum sum = split_sum(compiled(metal).sums, std::cos(view));
+                EXPECT_GE(std::min(sum.scale, sum.bias), 0);
+                EXPECT_LE(sum.scale + sum.bias, 1);
+                EXPECT_NEAR(sum.scale * f0 + sum.bias, directional_albedo(compiled(metal), view), 0.03) << roughness << " " << f0 << " " << view;
+            }
+        }
+    }
+}
+
+// glTF 2.0, appendix B: fresnel_mix of a diffuse base and a specular layer.
+TEST(Layer, IsThatOfGltfAwayFromGrazingAngles) {
+    Random random(6);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 l = direction(random.uniform(0, 0.6), random.uniform(0, 7)), v = direction(random.uniform(0, 0.6), random.uniform(0, 7));
+        const Vec3 half = normalize(l + v);
+        PhysicalMaterial p;
+        p.base_color = {0.9f, 0.6f, 0.2f}, p.roughness = random.uniform(0.3, 1);
+        const Lobes lobes = compiled(p);
+        const double a2 = std::pow(p.roughness, 4), f = 0.04 + 0.96 * std::pow(1 - dot(v, half), 5);
+        const double d = a2 / (pi * std::pow(half.z * half.z * (a2 - 1) + 1, 2));
+        const double visibility = 0.5 / (l.z * std::sqrt(v.z * v.z * (1 - a2) + a2) + v.z * std::sqrt(l.z * l.z * (1 - a2) + a2));
+        for (int k = 0; k < 3; ++k) {
+            const double expected = ((1 - f) * p.base_color[k] / pi + f * d * visibility) * l.z;
+            EXPECT_NEAR(reflect_light(lobes, up, v, l, l.z, true)[k], expected, 1e-4 * (1 + expected));
+            EXPECT_NEAR(reflect_light(lobes, up, v, l, l.z, false)[k], (1 - f) * p.base_color[k] / pi * l.z, 1e-4);
+        }
+    }
+}
+
+TEST(Layer, AWhiteDielectricGivesBackWhatItGets) {
+    for (const double ior : {1.0, 1.3, 1.5, 2.0}) {
+        for (const double roughness : {0.3, 0.5, 0.7, 1.0}) {
+            for (const double view : {0.05, 0.6, 1.1, 1.3, 1.5, 1.55}) {
+                PhysicalMaterial p;
+                p.base_color = {1, 1, 1}, p.roughness = roughness, p.ior = ior;
+                const double albedo = directional_albedo(compiled(p), view);
+                EXPECT_LE(albedo, 1.01) << ior << " " << roughness << " " << view;
+                EXPECT_GE(albedo, ior > 1.5 ? 0.8 : 0.93) << ior << " " << roughness << " " << view;
+            }
+        }
+    }
 }
 
 TEST(Diffuse, AlbedoIsTheShareThatComesBack) {

@@ -1,4 +1,5 @@
 // Furnaces, refraction, absorption, and the growth of trees by influence, against closed forms.
+#include "render/lobes.h"
 #include "render/scenes.h"
 
 namespace crescente::render::testing {
@@ -63,6 +64,36 @@ TEST(Furnace, GlassWithFresnelIsInvisibleUpToWhatIsCutOff) {
     }
 }
 
+// Nothing that a physical material does adds light, at any angle; what does not absorb gives back all.
+TEST(Furnace, PhysicalMaterialsAddNoLight) {
+    for (const double roughness : {0.0, 0.1, 0.3, 0.6, 1.0}) {
+        for (const double metallic : {0.0, 0.4, 1.0}) {
+            for (const double transmission : {0.0, 0.5, 1.0}) {
+                for (const double opacity : {0.0, 0.3, 1.0}) {
+                    Build s = furnace();
+                    s.camera().field_of_view = 0.36;  // to the silhouette
+                    PhysicalMaterial m;
+                    m.base_color = {1, 1, 1}, m.roughness = roughness, m.metallic = metallic, m.transmission = transmission, m.opacity = opacity;
+                    s.place(sphere(1), s.material(m));
+                    s.settings().threshold = 1e-4, s.settings().depth = 60;
+                    const scene::Image picture = picture_of(s.scene);
+                    SCOPED_TRACE(::testing::Message() << "roughness " << roughness << " metallic " << metallic << " transmission " << transmission << " opacity " << opacity);
+                    // One scattering from a rough metal is not all there is: up to 0.7 is lost between its facets, in front and at the back.
+                    const double lost = transmission > 0 && metallic < 1 ? 0.01 : 0.01 + 0.7 * metallic * roughness * opacity * (2 - opacity);
+                    for (int i = 0; i < n * n; ++i) {
+                        const Rgb got = pixel(picture, i % n, i / n);
+                        for (int k = 0; k < 3; ++k) {
+                            const double expected = Rgb{1, 0.5f, 0.25f}[k];
+                            ASSERT_LE(got[k], expected * (1 + 1e-5)) << i % n << "," << i / n;
+                            ASSERT_GE(got[k], expected * (1 - lost)) << i % n << "," << i / n;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(Furnace, InsideAGlassBall) {
     Build s = furnace();
     s.camera().position = {0.2, 0.1, 0.3}, s.camera().target = {1, 0, 0};
@@ -118,6 +149,39 @@ TEST(Absorption, BeerAndLambert) {
     const scene::Image picture = picture_of(slab(m).scene);
     const Rgb expected{float(0.81 * std::exp(-0.5 * path)), float(0.64 * std::exp(-path)), float(std::exp(-2 * path))};
     for (int i = 0; i < 4; ++i) expect_near(pixel(picture, i, 3 - i), expected, 1e-5);
+}
+
+// Coverage over glass: each surface lets through its refracted share, and straight on what it does not cover.
+TEST(Coverage, TheStraightShareIsKeptBesideTheRefractedOne) {
+    PhysicalMaterial m;
+    m.base_color = {0.5f, 0.25f, 1}, m.transmission = 1, m.opacity = 0.6, m.ior = 1, m.roughness = 0;
+    const Rgb once{0.5f * 0.6f + 0.4f, 0.25f * 0.6f + 0.4f, 1};
+    Build s(4, 4);
+    s.camera().projection = scene::Projection::orthographic, s.camera().height = 0.5;
+    s.place(box({-20, -20, -1}, {20, 20, 0}), s.material(m));
+    s.place(box({-20, -20, -4}, {20, 20, -3}), s.material(glow({1, 1, 1})));
+    for (int i = 0; i < 16; ++i) expect_near(pixel(picture_of(s.scene), i % 4, i / 4), once * once, 1e-5);
+    // Light takes the same ways.
+    Build lit = s;
+    lit.scene.materials[1] = {"", matte({1, 1, 1})};
+    scene::Light& sun = lit.light();
+    sun.kind = scene::LightKind::directional, sun.direction = {0, 0, -1};
+    for (int i = 0; i < 16; ++i) expect_near(pixel(picture_of(lit.scene), i % 4, i / 4), once * once * once * once, 1e-5);
+    // Bent and unbent rays meet different places.
+    m.base_color = {1, 1, 1}, m.opacity = 0.5, m.ior = 1.5;
+    Build prism(2, 2);
+    prism.camera().projection = scene::Projection::orthographic, prism.camera().height = 0.01;
+    prism.camera().position = Vec3{-std::sin(slant), 0, std::cos(slant)} * 3;
+    prism.place(box({-20, -20, -2}, {20, 20, 0}), prism.material(m));
+    const double straight = 2 * std::tan(slant), bent = 2 * std::tan(std::asin(std::sin(slant) / 1.5)), split = 0.5 * (straight + bent);
+    prism.place(box({split, -20, -2.2}, {20, 20, -2.1}), prism.material(glow({1, 0, 0})));
+    prism.place(box({-20, -20, -2.2}, {split, 20, -2.1}), prism.material(glow({0, 1, 0})));
+    prism.settings().depth = 2;
+    // What comes straight to the far surface leaves it straight on or bent once; what comes bent, straight on or bent back.
+    const double entering = 0.5 * (1 - fresnel_dielectric(std::cos(slant), 1.5)), leaving = 0.5 * (1 - fresnel_dielectric(std::cos(slant), 1 / 1.5));
+    const Rgb got = pixel(picture_of(prism.scene), 0, 0);
+    EXPECT_NEAR(got.r, 0.5 * (0.5 + leaving), 1e-4);
+    EXPECT_NEAR(got.g, entering * (0.5 + entering), 1e-4);  // out as in: Fresnel's equations hold both ways
 }
 
 TEST(Refraction, TotalReflectionLosesNothing) {
