@@ -318,7 +318,7 @@ const MeshRay& Embree::mesh_ray(Query& query, unsigned lane, std::uint32_t insta
     return query.local[lane];
 }
 
-// Tries a sphere or a cluster against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
+// Tries a sphere, a cluster or a part of a Brep against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
 // ray at a time is better, or the only way; then nothing was done.
 bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid,
                         auto&& visit) const {
@@ -339,6 +339,16 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
             }
         }
         query.counts.shape_tests += static_cast<unsigned>(__builtin_popcount(in_reach)) * packet;
+        return true;
+    }
+    if (const auto* brep = std::get_if<geometry::Brep>(instance.shape)) {
+        constexpr int few = 2;  // rays, which are cheaper one by one
+        if (__builtin_popcount(active) <= few) return false;
+        for (unsigned lanes = brep_lanes(query.packet_rays, active, instance, *brep, primitive.index, t); lanes; lanes &= lanes - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+            visit(lane, Hit{t[lane], index, primitive.index});
+        }
+        query.counts.shape_tests += static_cast<unsigned>(__builtin_popcount(active));
         return true;
     }
     const auto* sphere = std::get_if<geometry::Sphere>(instance.shape);

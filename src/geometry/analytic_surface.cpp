@@ -6,7 +6,6 @@
 #include "geometry/convex.h"
 #include "geometry/sphere.h"
 #include "geometry/torus.h"
-#include "math/exact.h"
 
 namespace crescente::geometry {
 namespace {
@@ -30,28 +29,6 @@ Interval wave(double a, double b, double from, double to) {
 
 // The least of |c + cos| or the like over an interval: 0 if it changes sign there.
 double least_size(Interval range) { return range.low <= 0 && range.high >= 0 ? 0 : std::min(std::abs(range.low), std::abs(range.high)); }
-
-// Both roots of where the line o + s d meets x^2 + y^2 = (radius + slope z)^2, ascending: as inside_cone (geometry/revolved.cpp), for both nappes and about z.
-int cone_roots(Vec3 o, Vec3 d, double radius, double slope, double* s) {
-    const double r = radius + slope * o.z, dr = slope * d.z;
-    const double across = std::sqrt(d.x * d.x + d.y * d.y), distance = std::sqrt(o.x * o.x + o.y * o.y);
-    const double a = (across - std::abs(dr)) * (across + std::abs(dr));
-    const double b = o.x * d.x + o.y * d.y - r * dr;
-    const double c = (distance - std::abs(r)) * (distance + std::abs(r));
-    if (a == 0) {
-        if (b == 0) return 0;
-        s[0] = -c / (2 * b);
-        return 1;
-    }
-    const double px = difference_of_products(d.x, r, o.x, dr), py = difference_of_products(d.y, r, o.y, dr);
-    const double p = std::sqrt(px * px + py * py), q = std::abs(difference_of_products(o.x, d.y, o.y, d.x));
-    const double discriminant = (p - q) * (p + q);
-    if (a > 0 && !(discriminant > 0)) return 0;
-    const double sum = -(b + std::copysign(std::sqrt(std::max(discriminant, 0.0)), b));
-    s[0] = sum == 0 ? 0 : c / sum, s[1] = sum / a;
-    if (s[0] > s[1]) std::swap(s[0], s[1]);
-    return 2;
-}
 
 double rho_of(Vec3 local) { return std::sqrt(local.x * local.x + local.y * local.y); }
 
@@ -111,20 +88,24 @@ Point2 AnalyticSurface::period() const {
 }
 
 int AnalyticSurface::meet(const Ray& ray, Meeting* found) const {
-    const double shift = dot(center_ - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
-    const Vec3 o = to_local(exact_at(ray, shift));
-    const Vec3 d{dot(ray.direction, frame_.x), dot(ray.direction, frame_.y), dot(ray.direction, frame_.z)};
+    const LocalLine<double> line = into_frame<double>({ray.origin.x, ray.origin.y, ray.origin.z}, {ray.direction.x, ray.direction.y, ray.direction.z});
+    const double shift = line.shift;
+    const Point3<double> &o = line.origin, &d = line.direction;
     double s[most_meetings];
     int roots = 0;
     switch (kind_) {
         case Kind::plane:
-            s[0] = -o.z / d.z;
-            roots = d.z != 0;
+            s[0] = meet_plane(line);
+            roots = 1;
             break;
-        case Kind::cylinder: roots = cone_roots(o, d, radius_, 0, s); break;
-        case Kind::cone: roots = cone_roots(o, d, radius_, sine_ / cosine_, s); break;
+        case Kind::cylinder:
+        case Kind::cone: {
+            const auto [first, second] = cone_roots(line, radius_, slope());
+            s[0] = first, s[1] = second, roots = 2;
+            break;
+        }
         case Kind::sphere: {
-            const auto [enter, leave] = inside_sphere<double>(radius_, {o.x, o.y, o.z}, {d.x, d.y, d.z});
+            const auto [enter, leave] = inside_sphere<double>(radius_, o, d);
             if (enter < leave) s[0] = enter, s[1] = leave, roots = 2;
             break;
         }

@@ -1,9 +1,11 @@
 // The analytic surfaces of faces: plane, cylinder, cone, sphere and torus, in any position, with the parametrisations of geometry/face.h.
 #pragma once
 
+#include "geometry/ray_view.h"
 #include "geometry/shape.h"
 #include "geometry/trimming.h"
 #include "math/bounds.h"
+#include "math/lanes.h"
 
 namespace crescente::geometry {
 
@@ -12,6 +14,18 @@ namespace crescente::geometry {
 struct Meeting {
     double t = 0;
     Vec3 local;
+};
+
+// One line, or eight, along the axes of a surface's frame, moved near to the surface: its points are origin + s direction at t = shift + s.
+template <class T>
+struct LocalLine {
+    Point3<T> origin, direction;
+    T shift;
+};
+
+template <class T>
+struct TwoRoots {
+    T first, second;
 };
 
 class AnalyticSurface {
@@ -33,6 +47,11 @@ public:
 
     // All meetings with t_min < t <= t_max, ascending in t. Both nappes of a cone, both sheets of a spindle torus. A ray within the surface does not meet it.
     int meet(const Ray& ray, Meeting* found) const;
+    // The line of rays in the surface's frame; what meet() finds on planes, cylinders and cones are meet_plane's and cone_roots' s, to the bit.
+    template <class T>
+    LocalLine<T> into_frame(const Point3<T>& origin, const Point3<T>& direction) const;
+    double radius() const { return radius_; }
+    double slope() const { return sine_ / cosine_; }  // of a cone: how fast it widens along z
 
     Vec3 to_local(Vec3 position) const {
         const Vec3 p = position - frame_.origin;
@@ -69,5 +88,51 @@ private:
     Kind kind_ = Kind::plane;
     double hand_ = 1;  // -1: the frame is left-handed
 };
+
+template <class T>
+LocalLine<T> AnalyticSurface::into_frame(const Point3<T>& o, const Point3<T>& d) const {
+    LocalLine<T> line;
+    line.shift = ((center_.x - o.x) * d.x + (center_.y - o.y) * d.y + (center_.z - o.z) * d.z) / (d.x * d.x + d.y * d.y + d.z * d.z);
+    const T x = fused_multiply_add(d.x, line.shift, o.x) - frame_.origin.x, y = fused_multiply_add(d.y, line.shift, o.y) - frame_.origin.y;
+    const T z = fused_multiply_add(d.z, line.shift, o.z) - frame_.origin.z;
+    const auto along = [](const T& a, const T& b, const T& c, Vec3 axis) { return a * axis.x + b * axis.y + c * axis.z; };
+    line.origin = {along(x, y, z, frame_.x), along(x, y, z, frame_.y), along(x, y, z, frame_.z)};
+    line.direction = {along(d.x, d.y, d.z, frame_.x), along(d.x, d.y, d.z, frame_.y), along(d.x, d.y, d.z, frame_.z)};
+    return line;
+}
+
+// Where a line meets the plane z = 0; not finite if it does not.
+template <class T>
+T meet_plane(const LocalLine<T>& line) {
+    return -line.origin.z / line.direction.z;
+}
+
+// The roots of where the line meets x^2 + y^2 = (radius + slope z)^2, ascending: as inside_cone (geometry/revolved.cpp), for both nappes and about z.
+// No root is a NaN.
+template <class T>
+TwoRoots<T> cone_roots(const LocalLine<T>& line, double radius, double slope) {
+    const auto size = [](const T& x) { return x < 0.0 ? -x : x; };
+    const auto product_difference = [](const T& a, const T& b, const T& c, const T& d) {  // Kahan's, as math/exact.h
+        const T cd = c * d;
+        return fused_multiply_add(a, b, -cd) + fused_multiply_add(-c, d, cd);
+    };
+    const auto &o = line.origin, &d = line.direction;
+    const T r = radius + slope * o.z, dr = slope * d.z;
+    const T across = square_root(d.x * d.x + d.y * d.y), distance = square_root(o.x * o.x + o.y * o.y);
+    const T a = (across - size(dr)) * (across + size(dr));
+    const T b = o.x * d.x + o.y * d.y - r * dr;
+    const T c = (distance - size(r)) * (distance + size(r));
+    const T px = product_difference(d.x, r, o.x, dr), py = product_difference(d.y, r, o.y, dr);
+    const T p = square_root(px * px + py * py), q = size(product_difference(o.x, d.y, o.y, d.x));
+    const T discriminant = (p - q) * (p + q), none = T{} + std::numeric_limits<double>::quiet_NaN();
+    const T root = square_root(discriminant > 0.0 ? discriminant : T{});
+    const T sum = b < 0.0 ? root - b : -(b + root);
+    const T one = sum == 0.0 ? T{} : c / sum, other = sum / a;
+    const T low = one < other ? one : other, high = one < other ? other : one;
+    // Along the wall: one root. Past a convex wall: none.
+    const T single = -c / (2.0 * b);
+    const auto flat = a == 0.0, missed = (a > 0.0) & !(discriminant > 0.0);
+    return {flat ? (b == 0.0 ? none : single) : missed ? none : low, (flat | missed) ? none : high};
+}
 
 }  // namespace crescente::geometry

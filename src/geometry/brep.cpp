@@ -102,6 +102,13 @@ Face Brep::face(std::uint32_t index) const {
     return face;
 }
 
+// Whether a point of an analytic face's surface is a hit of the face.
+bool Brep::belongs(std::uint32_t part, const TrimmedFace& face, const Ray& ray, const Meeting& meeting) const {
+    const Point2 root = face.surface.parameters(meeting.local);
+    const auto located = face.trimming.locate(root, [&](Point2 p) { return face.surface.metric(p); });
+    return located.place != Place::outside && (!located.near_edge || counts(part, ray, meeting.t, root, located));
+}
+
 std::optional<ShapeHit> Brep::intersect(std::uint32_t part, const Ray& ray) const {
     const Leaf& leaf = leaves_[part];
     const TrimmedFace& face = faces_[leaf.face];
@@ -109,12 +116,66 @@ std::optional<ShapeHit> Brep::intersect(std::uint32_t part, const Ray& ray) cons
     Meeting meetings[AnalyticSurface::most_meetings];
     const int count = face.surface.meet(ray, meetings);
     for (int i = 0; i < count; ++i) {
-        const Point2 root = face.surface.parameters(meetings[i].local);
-        const auto located = face.trimming.locate(root, [&](Point2 p) { return face.surface.metric(p); });
-        if (located.place == Place::outside || (located.near_edge && !counts(part, ray, meetings[i].t, root, located))) continue;
-        return ShapeHit{meetings[i].t, part};
+        if (belongs(part, face, ray, meetings[i])) return ShapeHit{meetings[i].t, part};
     }
     return std::nullopt;
+}
+
+unsigned Brep::intersect(std::uint32_t part, const RayLanes& rays, unsigned active, Lanes& t) const {
+    const Leaf& leaf = leaves_[part];
+    const TrimmedFace& face = faces_[leaf.face];
+    const auto &o = rays.origin, &d = rays.direction;
+    const auto ray_of = [&](int lane) {
+        return Ray{{o.x[lane], o.y[lane], o.z[lane]}, {d.x[lane], d.y[lane], d.z[lane]}, rays.t_min[lane], rays.t_max[lane]};
+    };
+    unsigned found = 0;
+    const auto alone = [&](int lane) {
+        if (const auto hit = intersect(part, ray_of(lane))) t[lane] = hit->t, found |= 1u << lane;
+    };
+    if (face.patches != none) {
+        // Where the nearest root is trimmed off, others may not be.
+        PatchRootLanes roots;
+        for (unsigned rest = patches_[face.patches].leaves.nearest(leaf.patch_leaf, rays, active, roots); rest; rest &= rest - 1) {
+            const int lane = __builtin_ctz(rest);
+            const PatchRoot root{roots.t[lane], roots.u[lane], roots.v[lane]};
+            const Ray ray = ray_of(lane);
+            const auto located = locate_patch(leaf, face, root, ray.at(root.t));
+            if (located.place != Place::outside && (!located.near_edge || counts(part, ray, root.t, {root.u, root.v}, located))) {
+                t[lane] = root.t, found |= 1u << lane;
+            } else {
+                alone(lane);
+            }
+        }
+        return found;
+    }
+    const AnalyticSurface& surface = face.surface;
+    const auto kind = surface.kind();
+    if (kind == AnalyticSurface::Kind::sphere || kind == AnalyticSurface::Kind::torus) {
+        for (unsigned rest = active; rest; rest &= rest - 1) alone(__builtin_ctz(rest));
+        return found;
+    }
+    const LocalLine<Lanes> line = surface.into_frame(o, d);
+    const Lanes far = Lanes{} + infinity;
+    // Lanes among `wanted` that have the root in reach and on the face.
+    const auto take = [&](const Lanes& s, unsigned wanted) {
+        const Lanes at = line.shift + s;
+        unsigned reached = bits_of((at > rays.t_min) & (at <= rays.t_max) & (at < far)) & wanted;
+        if (!reached) return;
+        const Lanes x = fused_multiply_add(line.direction.x, s, line.origin.x), y = fused_multiply_add(line.direction.y, s, line.origin.y);
+        const Lanes z = fused_multiply_add(line.direction.z, s, line.origin.z);
+        for (; reached; reached &= reached - 1) {
+            const int lane = __builtin_ctz(reached);
+            if (belongs(part, face, ray_of(lane), {at[lane], {x[lane], y[lane], z[lane]}})) t[lane] = at[lane], found |= 1u << lane;
+        }
+    };
+    if (kind == AnalyticSurface::Kind::plane) {
+        take(meet_plane(line), active);
+    } else {
+        const auto [first, second] = cone_roots(line, surface.radius(), surface.slope());
+        take(first, active);
+        take(second, active & ~found);
+    }
+    return found;
 }
 
 SurfacePoint Brep::surface(std::uint32_t primitive, Vec3 position) const {

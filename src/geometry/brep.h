@@ -32,6 +32,8 @@ public:
     std::uint32_t parts() const { return static_cast<std::uint32_t>(leaves_.size()); }
     Bounds part_bounds(std::uint32_t part) const { return leaves_[part].box; }
     std::optional<ShapeHit> intersect(std::uint32_t part, const Ray& ray) const;
+    // intersect() for each of the lanes of `active`, to the same bits: the lanes that meet the part, and their parameters.
+    unsigned intersect(std::uint32_t part, const RayLanes& rays, unsigned active, Lanes& t) const;
     SurfacePoint surface(std::uint32_t primitive, Vec3 position) const;
     static const FieldTable<Brep>& fields();  // none: it comes from a CAD file
 
@@ -67,6 +69,8 @@ private:
     std::optional<ShapeHit> meet_patch(std::uint32_t part, const TrimmedFace& face, const Ray& ray) const;
     Trimming::Located locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position) const;
     SurfacePoint patch_surface(const Leaf& leaf, const TrimmedFace& face, Vec3 position) const;
+
+    bool belongs(std::uint32_t part, const TrimmedFace& face, const Ray& ray, const Meeting& meeting) const;
 
     // --- brep_edges.cpp
     struct Tangents {

@@ -4,7 +4,7 @@
 // that nothing passes through a slit. What has gone beyond the neighbour's surface is then more than the solid has, be it inside the loops or in the
 // band, and does not count if the neighbour has the crossing in its place: near the edge the solid is the wedge between the two surfaces themselves. Where
 // they are tangent there is no wedge but one surface told twice; then strict hits go first, and after them the lower face.
-// See docs/decisions/0005-bands-and-edges.md.
+// See docs/decisions/0006-bands-and-edges.md.
 #include <algorithm>
 #include <cmath>
 
