@@ -42,7 +42,7 @@ LIBRARIES = {
     "nlohmann/": ["io/", "app/"],
     "CLI/": ["app/"],
     "spdlog/": ["app/"],
-    "xxhash.h": ["app/"],
+    "xxhash.h": ["io/"],
 }
 
 LONGEST = 500

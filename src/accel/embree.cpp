@@ -24,7 +24,10 @@ constexpr double largest_coordinate = 1e16;     // what goes further, Embree doe
 
 bool fits(const Bounds& box) { return box.bounded() && box.largest_coordinate() < largest_coordinate; }
 
-// Whether Embree may carry rays into the mesh's space, in float: not if the transform distorts so much that the error would exceed the
+// Whether all instances of a shape may refer to one copy of its boxes: where these outweigh what an instance takes.
+bool may_share(const geometry::Shape& shape) { return std::holds_alternative<geometry::Mesh>(shape) || geometry::parts(shape) > 8; }
+
+// Whether Embree may carry rays into the shape's space, in float: not if the transform distorts so much that the error would exceed the
 // margin of the boxes, or if coordinates there would leave Embree's range.
 bool may_instance(const Instance& instance, double scene_radius) {
     const auto norm = [](const Affine& m) { return std::sqrt(dot(m.x, m.x) + dot(m.y, m.y) + dot(m.z, m.z)); };
@@ -39,7 +42,7 @@ struct Primitive {
     bool is_cluster;
 };
 
-// What one Embree geometry refers to. Sets of instanced meshes name no instance: Embree tells which one it is in.
+// What one Embree geometry refers to. Sets of instanced shapes name no instance: Embree tells which one it is in.
 struct PrimitiveSet {
     std::vector<Primitive> primitives;
     std::vector<TriangleCluster> clusters;
@@ -145,7 +148,7 @@ private:
     std::span<const Instance> instances_;
     Device device_;
     std::vector<std::unique_ptr<PrimitiveSet>> sets_;
-    std::vector<Scene> prototypes_;  // scenes of meshes that are shown several times
+    std::vector<Scene> prototypes_;  // scenes of shapes that are shown several times
     Scene scene_;
     std::vector<std::uint32_t> instance_of_geometry_;  // by Embree geometry id of the top scene
     std::vector<std::uint32_t> unbounded_;             // instances that no box holds: tried for every ray
@@ -173,15 +176,14 @@ Expected<void> Embree::build() {
             unbounded_.push_back(i);
         }
     }
-    std::vector<std::pair<const geometry::Shape*, std::vector<std::uint32_t>>> shared;  // meshes and their instances, in order
+    std::vector<std::pair<const geometry::Shape*, std::vector<std::uint32_t>>> shared;  // shapes that may be stored once and their instances, in order
     {
-        std::vector<std::pair<const geometry::Shape*, std::uint32_t>> meshes;
+        std::vector<std::pair<const geometry::Shape*, std::uint32_t>> large;
         for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-            if (boxes[i].empty() || !std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) continue;
-            meshes.emplace_back(instances_[i].shape, i);
+            if (!boxes[i].empty() && may_share(*instances_[i].shape)) large.emplace_back(instances_[i].shape, i);
         }
-        std::stable_sort(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) { return std::less<>{}(a.first, b.first); });
-        for (const auto& [shape, i] : meshes) {
+        std::stable_sort(large.begin(), large.end(), [](const auto& a, const auto& b) { return std::less<>{}(a.first, b.first); });
+        for (const auto& [shape, i] : large) {
             if (shared.empty() || shared.back().first != shape) shared.push_back({shape, {}});
             shared.back().second.push_back(i);
         }
@@ -200,15 +202,19 @@ Expected<void> Embree::build() {
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
     PrimitiveSet& flat = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
-    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
-        if (boxes[i].empty() || std::holds_alternative<geometry::Mesh>(*instances_[i].shape)) continue;
-        const std::uint32_t parts = geometry::parts(*instances_[i].shape);
+    // Boxes of all parts of a shape that is no mesh, seen from `origin`; instance none: in the shape's own space.
+    const auto add_parts = [](PrimitiveSet& set, const geometry::Shape& shape, std::uint32_t instance, const Affine& place, Vec3 origin, double grow) {
+        const std::uint32_t parts = geometry::parts(shape);
         for (std::uint32_t part = 0; part < parts; ++part) {
-            const Bounds box = transform(instances_[i].to_world, geometry::part_bounds(*instances_[i].shape, part));
+            const Bounds box = transform(place, geometry::part_bounds(shape, part));
             if (box.empty()) continue;
-            flat.primitives.push_back({i, part, false});
-            flat.bounds.push_back(float_bounds(box, center_, margin));
+            set.primitives.push_back({instance, part, false});
+            set.bounds.push_back(float_bounds(box, origin, grow));
         }
+    };
+    for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+        const geometry::Shape& shape = *instances_[i].shape;
+        if (!boxes[i].empty() && !may_share(shape)) add_parts(flat, shape, i, instances_[i].to_world, center_, margin);
     }
     struct Placed {
         RTCScene prototype;
@@ -217,12 +223,15 @@ Expected<void> Embree::build() {
     };
     std::vector<Placed> placed;
     for (const auto& [shape, users] : shared) {
-        const auto& mesh = std::get<geometry::Mesh>(*shape);
-        std::vector<TriangleCluster> clusters = cluster_triangles(mesh, device_.get());
-        if (clusters.empty()) continue;
+        const auto* mesh = std::get_if<geometry::Mesh>(shape);
+        std::vector<TriangleCluster> clusters;
+        if (mesh) clusters = cluster_triangles(*mesh, device_.get());
+        if (mesh && clusters.empty()) continue;
         std::vector<std::uint32_t> instanced, flattened;  // flattened: each with boxes of its own; the clusters are shared
         for (const std::uint32_t i : users) (users.size() > 1 && may_instance(instances_[i], radius_) ? instanced : flattened).push_back(i);
-        if (!flattened.empty()) {
+        if (!mesh) {
+            for (const std::uint32_t i : flattened) add_parts(flat, *shape, i, instances_[i].to_world, center_, margin);
+        } else if (!flattened.empty()) {
             const auto base = static_cast<std::uint32_t>(flat.clusters.size());
             for (const std::uint32_t i : flattened) {
                 for (std::uint32_t c = 0; c < clusters.size(); ++c) {
@@ -237,11 +246,11 @@ Expected<void> Embree::build() {
             }
         }
         if (instanced.empty()) continue;
-        // In the mesh's own space Embree's ray strays further: by the errors of the world ray and of the transform, both in
+        // In the shape's own space Embree's ray strays further: by the errors of the world ray and of the transform, both in
         // float, carried into that space.
         PrimitiveSet& set = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
         set.clusters = std::move(clusters);
-        const Bounds own = mesh.bounds();
+        const Bounds own = geometry::bounds(*shape);
         double local_margin = 0;
         for (const std::uint32_t i : instanced) {
             const Affine& m = instances_[i].to_local;
@@ -249,6 +258,7 @@ Expected<void> Embree::build() {
             local_margin = std::max(local_margin, 4 * margin * stretch);
         }
         local_margin += box_margin * max_component(own.diagonal());
+        if (!mesh) add_parts(set, *shape, none, Affine{}, own.center(), local_margin);
         for (std::uint32_t c = 0; c < set.clusters.size(); ++c) {
             set.primitives.push_back({none, c, true});
             set.bounds.push_back(float_bounds(bounds(set.clusters[c], Affine{}), own.center(), local_margin));
@@ -308,7 +318,7 @@ const MeshRay& Embree::mesh_ray(Query& query, unsigned lane, std::uint32_t insta
     return query.local[lane];
 }
 
-// Tries a sphere or a cluster against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
+// Tries a sphere, a cluster or a part of a Brep against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
 // ray at a time is better, or the only way; then nothing was done.
 bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
                         auto&& visit) const {
@@ -332,6 +342,16 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
             }
         }
         query.counts.shape_tests += static_cast<unsigned>(__builtin_popcount(in_reach)) * packet;
+        return true;
+    }
+    if (const auto* brep = std::get_if<geometry::Brep>(instance.shape)) {
+        constexpr int few = 2;  // rays, which are cheaper one by one
+        if (__builtin_popcount(active) <= few) return false;
+        for (unsigned lanes = brep_lanes(query.packet_rays, active, instance, *brep, primitive.index, t); lanes; lanes &= lanes - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+            visit(lane, Hit{t[lane], index, primitive.index});
+        }
+        query.counts.shape_tests += static_cast<unsigned>(__builtin_popcount(active));
         return true;
     }
     const auto* sphere = std::get_if<geometry::Sphere>(instance.shape);

@@ -71,6 +71,19 @@ inline unsigned sphere_lanes(const RayPacket& rays, unsigned active, const Insta
     return found;
 }
 
+// Which of the active lanes meet a part of a Brep, as bits; t holds the parameter of the nearest crossing in the lane's reach.
+inline unsigned brep_lanes(const RayPacket& rays, unsigned active, const Instance& instance, const geometry::Brep& brep, std::uint32_t part, double* t) {
+    unsigned found = 0;
+    for (int first = 0; first < packet_size; first += lane_count) {
+        const unsigned wanted = active >> first & 0xff;
+        if (!wanted) continue;
+        const LocalLanes local(rays, first, instance);
+        const geometry::RayLanes lanes{local.origin, local.direction, load(rays.start + first), load(rays.end + first)};
+        found |= brep.intersect(part, lanes, wanted, *reinterpret_cast<Lanes*>(t + first)) << first;
+    }
+    return found;
+}
+
 // The packet in the space of one mesh instance, if its rays share the axis of their views there.
 struct MeshPacket {
     std::uint32_t instance = none;

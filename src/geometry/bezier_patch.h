@@ -9,6 +9,13 @@ namespace crescente::geometry {
 
 using namespace math;
 
+// A range of the parameters of a surface.
+struct ParameterBox {
+    double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
+
+    bool operator==(const ParameterBox&) const = default;
+};
+
 // A control point in homogeneous form: the point times its weight, and the weight, which is positive.
 struct ControlPoint {
     Vec3 weighted;

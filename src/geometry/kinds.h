@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "geometry/box.h"
+#include "geometry/brep.h"
 #include "geometry/cone.h"
 #include "geometry/cylinder.h"
 #include "geometry/disk.h"
@@ -16,10 +17,10 @@
 
 namespace crescente::geometry {
 
-using Shape = std::variant<Sphere, Box, Cone, Cylinder, Torus, Disk, Plane, Polygon, Mesh>;
+using Shape = std::variant<Sphere, Box, Cone, Cylinder, Torus, Disk, Plane, Polygon, Mesh, Brep>;
 
 // Names in files, in the order of the variant.
-inline constexpr std::string_view shape_names[] = {"sphere", "box", "cone", "cylinder", "torus", "disk", "plane", "polygon", "mesh"};
+inline constexpr std::string_view shape_names[] = {"sphere", "box", "cone", "cylinder", "torus", "disk", "plane", "polygon", "mesh", "brep"};
 static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
 
 inline Bounds bounds(const Shape& shape) {

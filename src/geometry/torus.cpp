@@ -70,18 +70,18 @@ Bounds Torus::bounds() const {
     return {{-outer, -minor_radius, -outer}, {outer, minor_radius, outer}};
 }
 
-std::optional<ShapeHit> Torus::intersect(std::uint32_t, const Ray& ray) const {
+int torus_crossings(const Ray& ray, double major_radius, double minor_radius, double* found, int most) {
     // The flat cylinder about the torus, a little larger, so that g is positive at both ends whatever the rounding.
     constexpr double margin = 1 + 1e-9;
     const double outer = (major_radius + minor_radius) * margin, half_height = minor_radius * margin;
     const Stretch within = slab(ray.origin.y, ray.direction.y, -half_height, half_height);
-    if (!(within.enter < within.leave)) return std::nullopt;
+    if (!(within.enter < within.leave)) return 0;
     const double shift = nearest_to_axis(ray, within);
     const Tube tube{exact_at(ray, shift), ray.direction, major_radius, minor_radius};
     Stretch reach = inside_cone(tube.origin, tube.direction, outer, 0);
     reach.clip(slab(tube.origin.y, tube.direction.y, -half_height, half_height));
-    if (!(reach.enter < reach.leave && reach.enter > -infinity && reach.leave < infinity)) return std::nullopt;
-    if (shift + reach.leave <= ray.t_min || shift + reach.enter > ray.t_max) return std::nullopt;
+    if (!(reach.enter < reach.leave && reach.enter > -infinity && reach.leave < infinity)) return 0;
+    if (shift + reach.leave <= ray.t_min || shift + reach.enter > ray.t_max) return 0;
 
     // Where g turns from convex to concave and back.
     const Vec3 d = ray.direction;
@@ -90,16 +90,17 @@ std::optional<ShapeHit> Torus::intersect(std::uint32_t, const Ray& ray) const {
     const double rho_bend = std::cbrt(major_radius * area2 / d2), rho_least2 = area2 / across2;
     const double nearest = -(tube.origin.x * d.x + tube.origin.z * d.z) / across2;
     const double half_width = std::sqrt(std::max(rho_bend * rho_bend - rho_least2, 0.0) / across2);
-    const bool bends = across2 > 0 && (half_width > 0 || area == 0);
+    const bool bends = major_radius > 0 && across2 > 0 && (half_width > 0 || area == 0);
     // The slope of rho where g bends. It is taken from the closed form, since near the axis (area -> 0: a kink) rounding hides it.
     const double rho_slope = area == 0 ? std::sqrt(across2) : across2 * half_width / rho_bend;
 
-    // These return whether the nearest root in reach is known, so that those behind it need not be refined.
+    // These return whether the wanted roots in reach are known, so that those behind them need not be refined.
     Roots roots;
+    int wanted = most;
     const auto root_between = [&](double low, double high, bool negative_at_low, double start) {
         if (shift + high <= ray.t_min) return false;
         const double t = shift + bracketed_root([&](double s) { return tube.value_and_slope(s); }, low, high, negative_at_low, start);
-        return roots.add(t) && in_reach(t, ray) && t < shift + high;
+        return roots.add(t) && in_reach(t, ray) && t < shift + high && --wanted == 0;
     };
     // The roots of one interval, where g bends one way. The slopes of g at its ends come from the caller. Newton's method starts from
     // the ends, where it comes near the root from one side.
@@ -146,10 +147,17 @@ std::optional<ShapeHit> Torus::intersect(std::uint32_t, const Ray& ray) const {
     };
     search_all();
 
-    for (int i = 0; i < roots.count; ++i) {
-        if (in_reach(roots.t[i], ray)) return ShapeHit{roots.t[i], 0};
+    int count = 0;
+    for (int i = 0; i < roots.count && count < most; ++i) {
+        if (in_reach(roots.t[i], ray)) found[count++] = roots.t[i];
     }
-    return std::nullopt;
+    return count;
+}
+
+std::optional<ShapeHit> Torus::intersect(std::uint32_t, const Ray& ray) const {
+    double t;
+    if (torus_crossings(ray, major_radius, minor_radius, &t, 1) == 0) return std::nullopt;
+    return ShapeHit{t, 0};
 }
 
 // u: turn about the y axis; v: turn about the tube, from the outermost circle upwards.

@@ -20,4 +20,8 @@ struct Torus {
     static const FieldTable<Torus>& fields();
 };
 
+// Where a ray crosses (sqrt(x^2 + z^2) - major)^2 + y^2 = minor^2 with t_min < t <= t_max, ascending: the nearest `most` (up to 4). A negative major
+// gives the inner sheet of a spindle torus, whose tube's center lies on the other side of the axis.
+int torus_crossings(const Ray& ray, double major, double minor, double* found, int most);
+
 }  // namespace crescente::geometry

@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "base/spelling.h"
+#include "io/cad_file.h"
 #include "io/gltf.h"
 #include "io/mesh_file.h"
 #include "io/nff.h"
@@ -13,6 +14,14 @@
 #include "io/stl.h"
 
 namespace crescente::io {
+namespace {
+
+template <auto read>
+Expected<Loaded> at_once(const std::filesystem::path& file, const ReadOptions&) {
+    return read(file);
+}
+
+}  // namespace
 
 std::span<const Format> formats() {
     static const std::vector<Format> table{
@@ -20,33 +29,37 @@ std::span<const Format> formats() {
         {"NFF", {".nff"},
          "Neutral File Format (Haines 1987), the whole of it: view, background, lights, fills, spheres, cones, cylinders, polygons and patches. "
          "No unit (metres) and no fixed up axis: the view says what is up.",
-         read_nff_file},
+         at_once<read_nff_file>},
+        {"STEP", {".step", ".stp", ".p21"},
+         "Exact faces, assembly, names and colours of AP203, AP214 and AP242, with external references. Unit as the file says, z up.", read_cad_file},
+        {"IGES", {".iges", ".igs"}, "Exact faces, names and colours. Unit as the file says, z up.", read_cad_file},
+        {"OpenCASCADE BREP", {".brep", ".brp", ".rle"}, "Exact faces, as text or binary. No unit (millimetres), z up.", read_cad_file},
         {"glTF 2.0", {".gltf", ".glb"},
-         "Meshes, hierarchy, instances, cameras, punctual lights, physical materials by their factors. Metres, y up.", read_gltf_file},
-        {"Wavefront OBJ", {".obj"}, "Polygons with MTL materials. No unit (metres), y up.", read_mesh_file},
-        {"PLY", {".ply"}, "Polygons. No unit (metres), z up.", read_ply_file},
-        {"STL", {".stl"}, "Triangles. No unit (millimetres, by custom), z up. Edges sharper than 40 degrees stay sharp.", read_stl_file},
-        {"3MF", {".3mf"}, "Triangles of additive manufacturing. Millimetres, z up.", read_mesh_file},
-        {"AMF", {".amf"}, "Triangles of additive manufacturing. Millimetres, z up.", read_mesh_file},
-        {"OFF", {".off"}, "Polygons. No unit (metres), y up.", read_mesh_file},
-        {"Collada", {".dae"}, "Polygons, hierarchy, cameras, lights. Unit and up axis as the file says.", read_mesh_file},
-        {"FBX", {".fbx"}, "Polygons, hierarchy, cameras, lights. Unit and up axis as the file says.", read_mesh_file},
-        {"3D Studio", {".3ds"}, "Triangles, hierarchy, cameras, lights. No unit (metres), z up.", read_mesh_file},
-        {"X3D", {".x3d"}, "Polygons, hierarchy. Metres, y up.", read_mesh_file},
-        {"AC3D", {".ac"}, "Polygons, hierarchy. No unit (metres), y up.", read_mesh_file},
-        {"LightWave", {".lwo"}, "Polygons. Metres, y up.", read_mesh_file},
-        {"DirectX", {".x"}, "Polygons, hierarchy. No unit (metres), y up.", read_mesh_file},
-        {"DXF", {".dxf"}, "Faces of a drawing. No unit (millimetres), z up.", read_mesh_file},
+         "Meshes, hierarchy, instances, cameras, punctual lights, physical materials by their factors. Metres, y up.", at_once<read_gltf_file>},
+        {"Wavefront OBJ", {".obj"}, "Polygons with MTL materials. No unit (metres), y up.", at_once<read_mesh_file>},
+        {"PLY", {".ply"}, "Polygons. No unit (metres), z up.", at_once<read_ply_file>},
+        {"STL", {".stl"}, "Triangles. No unit (millimetres, by custom), z up. Edges sharper than 40 degrees stay sharp.", at_once<read_stl_file>},
+        {"3MF", {".3mf"}, "Triangles of additive manufacturing. Millimetres, z up.", at_once<read_mesh_file>},
+        {"AMF", {".amf"}, "Triangles of additive manufacturing. Millimetres, z up.", at_once<read_mesh_file>},
+        {"OFF", {".off"}, "Polygons. No unit (metres), y up.", at_once<read_mesh_file>},
+        {"Collada", {".dae"}, "Polygons, hierarchy, cameras, lights. Unit and up axis as the file says.", at_once<read_mesh_file>},
+        {"FBX", {".fbx"}, "Polygons, hierarchy, cameras, lights. Unit and up axis as the file says.", at_once<read_mesh_file>},
+        {"3D Studio", {".3ds"}, "Triangles, hierarchy, cameras, lights. No unit (metres), z up.", at_once<read_mesh_file>},
+        {"X3D", {".x3d"}, "Polygons, hierarchy. Metres, y up.", at_once<read_mesh_file>},
+        {"AC3D", {".ac"}, "Polygons, hierarchy. No unit (metres), y up.", at_once<read_mesh_file>},
+        {"LightWave", {".lwo"}, "Polygons. Metres, y up.", at_once<read_mesh_file>},
+        {"DirectX", {".x"}, "Polygons, hierarchy. No unit (metres), y up.", at_once<read_mesh_file>},
+        {"DXF", {".dxf"}, "Faces of a drawing. No unit (millimetres), z up.", at_once<read_mesh_file>},
     };
     return table;
 }
 
-Expected<Loaded> read_scene(const std::filesystem::path& file) {
+Expected<Loaded> read_scene(const std::filesystem::path& file, const ReadOptions& options) {
     std::string extension = file.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     std::vector<std::string> known;
     for (const Format& format : formats()) {
-        if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return format.read(file);
+        if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return format.read(file, options);
         known.insert(known.end(), format.extensions.begin(), format.extensions.end());
     }
     std::error_code code;

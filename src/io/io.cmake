@@ -38,4 +38,5 @@ if(CRESCENTE_TINYGLTF)
     endif()
 endif()
 
+include(io/cad.cmake OPTIONAL)
 include(io/image.cmake OPTIONAL)

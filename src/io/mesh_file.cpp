@@ -356,7 +356,7 @@ Expected<Loaded> read_mesh(std::string_view bytes, const std::string& file_name,
     IsolationLimits limits;
     limits.time += std::chrono::seconds(megabytes);
     limits.memory += bytes.size() * 100;
-    const auto answer = run_isolated([&] { return pack(read_by_assimp(bytes, file_name, folder)); }, limits);
+    const auto answer = run_isolated([&](const TellProgress&) { return pack(read_by_assimp(bytes, file_name, folder)); }, limits);
     if (!answer) {
         switch (answer.error()) {
             case IsolationFailure::crashed: return wrong(ErrorKind::input, "is damaged: Assimp, which reads this format, failed on it");

@@ -1,34 +1,11 @@
 #include "io/openimageio.h"
 
-#include <filesystem>
-#include <optional>
-#include <vector>
-
 #include <dlfcn.h>
+
+#include "io/module_file.h"
 
 namespace crescente::io {
 namespace {
-
-namespace fs = std::filesystem;
-
-// Marks this code, to ask the system which file it was loaded from: the program, or the Python module.
-void here() {}
-
-std::optional<fs::path> module_file() {
-    std::vector<fs::path> folders;
-    std::error_code error;
-    if (const auto program = fs::read_symlink("/proc/self/exe", error); !error) folders.push_back(program.parent_path());
-    if (Dl_info info{}; dladdr(reinterpret_cast<void*>(&here), &info) && info.dli_fname) {
-        if (const auto library = fs::canonical(info.dli_fname, error); !error) folders.push_back(library.parent_path());
-    }
-    for (const fs::path& folder : folders) {
-        for (const char* place : {".", "../lib", "../lib/crescente"}) {
-            fs::path file = (folder / place / "crescente_openimageio.so").lexically_normal();
-            if (fs::exists(file, error)) return file;
-        }
-    }
-    return std::nullopt;
-}
 
 struct Module {
     decltype(&crescente_oiio_encode) encode = nullptr;
@@ -36,7 +13,7 @@ struct Module {
 };
 
 Module load() {
-    const auto file = module_file();
+    const auto file = module_file("crescente_openimageio.so");
     if (!file) return {nullptr, "this build has no OpenImageIO (crescente_openimageio.so)"};
     void* library = dlopen(file->c_str(), RTLD_NOW | RTLD_LOCAL);  // stays loaded: OpenImageIO keeps threads
     if (!library) return {nullptr, dlerror()};
@@ -51,7 +28,7 @@ struct Answer {
 
 }  // namespace
 
-bool has_openimageio() { return module_file().has_value(); }
+bool has_openimageio() { return module_file("crescente_openimageio.so").has_value(); }
 
 Expected<std::string> encode_with_openimageio(CrescenteEncodeRequest request) {
     static const Module module = load();

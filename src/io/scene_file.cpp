@@ -26,6 +26,7 @@ using Roots = std::vector<NodeId>;
 
 // What the files of one scene share while they are read.
 struct Loading {
+    ReadOptions options;
     Loaded loaded;
     Problems problems;
     std::map<fs::path, std::optional<Roots>> files;         // nothing: being read
@@ -347,7 +348,7 @@ private:
     }
 
     Roots read_model(const fs::path& file) {
-        auto model = read_scene(file);
+        auto model = read_scene(file, loading_.options);
         if (!model) return take_problems(model.error()), Roots{};
         for (Problem& warning : model->warnings) loading_.loaded.warnings.push_back(std::move(warning));
         Scene& from = model->scene;
@@ -412,8 +413,9 @@ private:
     std::vector<NodeId> group_nodes_;
 };
 
-Expected<Loaded> read_outermost(std::string_view text, const std::string& name, const fs::path& folder, const fs::path& identity) {
+Expected<Loaded> read_outermost(std::string_view text, const std::string& name, const fs::path& folder, const fs::path& identity, const ReadOptions& options) {
     Loading loading;
+    loading.options = options;
     loading.chain.push_back(identity);
     loading.files[identity] = std::nullopt;
     Document document{loading, name, folder};
@@ -424,16 +426,16 @@ Expected<Loaded> read_outermost(std::string_view text, const std::string& name, 
 
 }  // namespace
 
-Expected<Loaded> read_scene_file(const fs::path& file) {
+Expected<Loaded> read_scene_file(const fs::path& file, const ReadOptions& options) {
     const auto text = read_whole_file(file);
     if (!text) return tl::unexpected(text.error());
     std::error_code error;
     const fs::path identity = fs::weakly_canonical(file, error);
-    return read_outermost(*text, file.string(), file.parent_path(), error ? file : identity);
+    return read_outermost(*text, file.string(), file.parent_path(), error ? file : identity, options);
 }
 
 Expected<Loaded> read_scene_text(std::string_view text, const std::string& name, const fs::path& folder) {
-    return read_outermost(text, name, folder, folder / name);
+    return read_outermost(text, name, folder, folder / name, {});
 }
 
 }  // namespace crescente::io

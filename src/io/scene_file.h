@@ -13,7 +13,7 @@ namespace crescente::io {
 
 // Reads a scene file and the model files that it refers to, each once. Errors (input): all problems of all files, with line and JSON
 // pointer; files that refer to each other in a ring, with the chain. The scene is not validated yet (scene/validate.h).
-Expected<Loaded> read_scene_file(const std::filesystem::path& file);
+Expected<Loaded> read_scene_file(const std::filesystem::path& file, const ReadOptions& options = {});
 
 // The same from memory: `name` stands for the file in problems, `folder` is where relative paths begin.
 Expected<Loaded> read_scene_text(std::string_view text, const std::string& name, const std::filesystem::path& folder);

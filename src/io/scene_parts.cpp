@@ -218,7 +218,9 @@ std::optional<Shape> read_shape(const Json& json, const Measure& measure, const 
         must_be(json, place, "an object that says a shape's kind", problems);
         return std::nullopt;
     }
-    const std::vector<std::string> kinds(std::begin(geometry::shape_names), std::end(geometry::shape_names));
+    std::vector<std::string> kinds(std::begin(geometry::shape_names), std::end(geometry::shape_names));
+    static_assert(std::is_same_v<std::variant_alternative_t<std::variant_size_v<Shape> - 1, Shape>, geometry::Brep>);
+    kinds.pop_back();  // its faces come from CAD files
     std::optional<Shape> shape;
     bool says_a_kind = false;
     for (const auto& member : *json.object()) {

@@ -79,11 +79,12 @@ void add_arrays(const geometry::Polygon&, ordered_json& schema) {
 template <class Kind>
 void add_arrays(const Kind&, ordered_json&) {}
 
-// Calls visit(name, a default shape) for each kind.
+// Calls visit(name, a default shape) for each kind that a native scene can spell out: faces of CAD parts come from their own files.
 template <class Visit, std::size_t i = 0>
 void for_each_kind(Visit&& visit) {
     if constexpr (i < std::variant_size_v<geometry::Shape>) {
-        visit(std::string(geometry::shape_names[i]), std::variant_alternative_t<i, geometry::Shape>{});
+        using Kind = std::variant_alternative_t<i, geometry::Shape>;
+        if constexpr (!std::is_same_v<Kind, geometry::Brep>) visit(std::string(geometry::shape_names[i]), Kind{});
         for_each_kind<Visit, i + 1>(std::forward<Visit>(visit));
     }
 }

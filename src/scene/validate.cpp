@@ -171,6 +171,10 @@ private:
         if (worst > flatness * size) add(here, "the points are not in one plane: one lies " + length_text(worst) + " off");
     }
 
+    void check_shape(const geometry::Brep& brep, const std::string& place) {
+        if (brep.face_count() == 0) add(place + "/brep", "a part needs at least one face");
+    }
+
     void check_shape(const geometry::Mesh& mesh, const std::string& place) {
         const std::string here = place + "/mesh";
         if (mesh.triangles.empty()) add(here + "/triangles", "a mesh needs at least one triangle");

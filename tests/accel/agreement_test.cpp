@@ -90,7 +90,7 @@ std::vector<Recipe> recipes() {
     const Vec3 far_out{1e6, -1e6, 1e6};
     std::vector<Recipe> all;
     std::uint64_t seed = 100;
-    for (const char* name : {"shapes_of_all_kinds", "instanced_meshes", "coincident"}) {
+    for (const char* name : {"shapes_of_all_kinds", "instanced_meshes", "instanced_breps", "coincident"}) {
         all.push_back({name, seed++, 1, {}});
         all.push_back({name, seed++, 1, far_out});
         all.push_back({name, seed++, 1e-3, {}});

@@ -91,6 +91,46 @@ inline geometry::Mesh grid_mesh(int n, double height) {
     return mesh;
 }
 
+// A block with round holes through it along z and a dome on it: planes, cylinders, a sphere and a torus, trimmed.
+inline geometry::Brep drilled_block(double band) {
+    using namespace geometry;
+    std::vector<Face> faces;
+    const auto rectangle = [=](double u0, double u1, double v0, double v1) {
+        return Loop{{LinePiece{{u0, v0}, {u1, v0}}, band}, {LinePiece{{u1, v0}, {u1, v1}}, band}, {LinePiece{{u1, v1}, {u0, v1}}, band}, {LinePiece{{u0, v1}, {u0, v0}}, band}};
+    };
+    const auto circle = [=](double u, double v, double r) { return Loop{{ArcPiece{{u, v}, {r, 0}, {0, r}, 0, 2 * pi}, band}}; };
+    const auto add = [&](FaceSurface surface, std::vector<Loop> loops, bool reversed, double u0, double u1, double v0, double v1) {
+        Face face;
+        face.surface = std::move(surface), face.loops = std::move(loops), face.reversed = reversed;
+        face.u0 = u0, face.u1 = u1, face.v0 = v0, face.v1 = v1;
+        faces.push_back(std::move(face));
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-0.5, 0.5}) {
+            Frame frame;
+            frame.x = frame.y = frame.z = {};
+            frame.x[(axis + 1) % 3] = frame.y[(axis + 2) % 3] = frame.z[axis] = 1;
+            frame.origin[axis] = side;
+            std::vector<Loop> loops{rectangle(-0.5, 0.5, -0.5, 0.5)};
+            for (int k = 0; k < 4 && axis == 2; ++k) loops.push_back(circle(k & 1 ? 0.3 : -0.3, k & 2 ? 0.3 : -0.3, 0.1));
+            if (axis == 2 && side > 0) loops.push_back(circle(0, 0, 0.2));
+            add(PlaneSurface{frame}, loops, side < 0, -0.5, 0.5, -0.5, 0.5);
+        }
+    }
+    for (int k = 0; k < 4; ++k) {
+        Frame frame;
+        frame.origin = {k & 1 ? 0.3 : -0.3, k & 2 ? 0.3 : -0.3, 0};
+        add(CylinderSurface{frame, 0.1}, {rectangle(0, 2 * pi, -0.5, 0.5)}, true, 0, 2 * pi, -0.5, 0.5);
+    }
+    Frame top;
+    top.origin = {0, 0, 0.5};
+    add(SphereSurface{top, 0.2}, {rectangle(0, 2 * pi, 0, pi / 2)}, false, 0, 2 * pi, 0, pi / 2);
+    top.origin = {0, 0, 0.2};
+    add(TorusSurface{top, 0.6, 0.1}, {}, false, 0, 2 * pi, 0, 2 * pi);
+    auto brep = Brep::make(faces);
+    return brep ? std::move(*brep) : Brep();
+}
+
 inline geometry::Shape random_shape(Random& random) {
     switch (random.below(8)) {
         case 0: return geometry::Sphere{random.uniform(0.3, 1)};
@@ -205,6 +245,17 @@ inline TestScene instanced_meshes(const Recipe& recipe) {
     return build.finish();
 }
 
+inline TestScene instanced_breps(const Recipe& recipe) {
+    SceneBuilder build(recipe);
+    const auto& block = build.shape(drilled_block(1e-7));
+    const auto& loose = build.shape(drilled_block(1e-2));
+    for (int i = 0; i < 3; ++i) build.place(block, random_place(build.random, 0.7), build.opaque());
+    for (int i = 0; i < 3; ++i) build.place(loose, random_place(build.random, 0.7), build.opaque());
+    build.place(drilled_block(0), random_place(build.random, 0.7), build.opaque());  // shown once
+    build.place(block, Affine::scaling({0.5, 0.5, 0.5}), build.opaque());
+    return build.finish();
+}
+
 // One mesh of 960 triangles, shown once.
 inline TestScene one_mesh(const Recipe& recipe) {
     SceneBuilder build(recipe);
@@ -297,7 +348,7 @@ using SceneMaker = TestScene (*)(const Recipe&);
 
 inline const std::map<std::string, SceneMaker>& scene_makers() {
     static const std::map<std::string, SceneMaker> makers{
-        {"shapes_of_all_kinds", shapes_of_all_kinds}, {"shapes_on_a_plane", shapes_on_a_plane}, {"instanced_meshes", instanced_meshes},
+        {"shapes_of_all_kinds", shapes_of_all_kinds}, {"shapes_on_a_plane", shapes_on_a_plane}, {"instanced_meshes", instanced_meshes}, {"instanced_breps", instanced_breps},
         {"one_mesh", one_mesh},         {"coincident", coincident}, {"tiny_in_huge", tiny_in_huge},
         {"flattened", flattened},       {"modelled_far_away", modelled_far_away},
     };

@@ -18,33 +18,33 @@ IsolationLimits brief() {
 }
 
 TEST(Isolated, ReturnsWhatTheWorkReturned) {
-    EXPECT_EQ(run_isolated([] { return std::string(); }, {}).value(), "");
+    EXPECT_EQ(run_isolated([](auto&) { return std::string(); }, {}).value(), "");
     std::string large(5'000'000, 'a');
     large[4'999'999] = '\0';
-    EXPECT_EQ(run_isolated([&] { return large; }, {}).value(), large);
+    EXPECT_EQ(run_isolated([&](auto&) { return large; }, {}).value(), large);
 }
 
 TEST(Isolated, NothingTheWorkDoesIsSeenHere) {
     int value = 1;
-    ASSERT_TRUE(run_isolated([&] { return std::to_string(value = 2); }, {}));
+    ASSERT_TRUE(run_isolated([&](auto&) { return std::to_string(value = 2); }, {}));
     EXPECT_EQ(value, 1);
 }
 
 TEST(Isolated, ACrashIsAnAnswer) {
     const auto failure_of = [](auto work) { return run_isolated(work, {}).error(); };
-    EXPECT_EQ(failure_of([]() -> std::string { std::raise(SIGSEGV); return {}; }), IsolationFailure::crashed);
-    EXPECT_EQ(failure_of([]() -> std::string { std::abort(); }), IsolationFailure::crashed);
-    EXPECT_EQ(failure_of([]() -> std::string { throw std::runtime_error("x"); }), IsolationFailure::crashed);
-    EXPECT_EQ(failure_of([]() -> std::string { std::_Exit(0); }), IsolationFailure::crashed);  // without an answer
+    EXPECT_EQ(failure_of([](auto&) -> std::string { std::raise(SIGSEGV); return {}; }), IsolationFailure::crashed);
+    EXPECT_EQ(failure_of([](auto&) -> std::string { std::abort(); }), IsolationFailure::crashed);
+    EXPECT_EQ(failure_of([](auto&) -> std::string { throw std::runtime_error("x"); }), IsolationFailure::crashed);
+    EXPECT_EQ(failure_of([](auto&) -> std::string { std::_Exit(0); }), IsolationFailure::crashed);  // without an answer
 }
 
 TEST(Isolated, WorkWithoutEndIsEnded) {
-    const auto busy = []() -> std::string {
+    const auto busy = [](auto&) -> std::string {
         volatile int i = 0;
         for (;;) i = i + 1;
     };
     EXPECT_EQ(run_isolated(busy, brief()).error(), IsolationFailure::too_long);
-    EXPECT_EQ(run_isolated([]() -> std::string { for (;;) std::raise(SIGSTOP); }, brief()).error(), IsolationFailure::too_long);
+    EXPECT_EQ(run_isolated([](auto&) -> std::string { for (;;) std::raise(SIGSTOP); }, brief()).error(), IsolationFailure::too_long);
 }
 
 TEST(PackedScene, ComesBackAsItWas) {

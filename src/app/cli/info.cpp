@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
-#include "app/cli/content_hash.h"
+#include "io/content_hash.h"
 #include "app/cli/quantities.h"
 #include "io/formats.h"
 #include "scene/hierarchy.h"
@@ -162,7 +162,7 @@ void print(const Json& json) {
 ExitCode info(const InfoOptions& options) {
     const auto loaded = io::read_scene(options.file);
     if (!loaded) return fail(loaded.error());
-    const auto hash = content_hash(options.file);
+    const auto hash = io::content_hash(options.file);
     if (!hash) return fail(hash.error());
     const Problems problems = scene::validate(loaded->scene, options.file);
 

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "app/cli/command.h"
-#include "app/cli/content_hash.h"
+#include "io/content_hash.h"
 #include "app/cli/load.h"
 #include "app/cli/progress.h"
 #include "app/cli/quantities.h"
@@ -193,7 +193,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     auto loaded = load(request->scene);
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
-    const auto hash = content_hash(options.scene.file);
+    const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
     times.load = seconds_since(start);
 

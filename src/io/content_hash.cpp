@@ -1,4 +1,4 @@
-#include "app/cli/content_hash.h"
+#include "io/content_hash.h"
 
 #include <cinttypes>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace crescente::app {
+namespace crescente::io {
 
 Expected<std::string> content_hash(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -27,4 +27,4 @@ Expected<std::string> content_hash(const std::filesystem::path& file) {
     return std::string(digits);
 }
 
-}  // namespace crescente::app
+}  // namespace crescente::io

@@ -1,0 +1,126 @@
+// Faces of a Brep on spline surfaces.
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/brep.h"
+
+namespace crescente::geometry {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// About how far a step in u and v goes at least on each patch, by the sides of its control net. Half of that is taken, since the net is not the surface.
+struct PatchSteps {
+    ParameterBox box;
+    Point2 step;
+};
+
+PatchSteps patch_steps(const BezierPatch& patch, const Frame* axis) {
+    const auto place = [&](int i, int j) { return patch.at(i, j).weighted / patch.at(i, j).weight; };
+    const double per_u = patch.degree_u / (patch.u1 - patch.u0), per_v = patch.degree_v / (patch.v1 - patch.v0);
+    double least_u = infinity, least_v = infinity, least_sine = 1, least_radius = infinity;
+    for (int i = 0; i <= patch.degree_u; ++i) {
+        for (int j = 0; j <= patch.degree_v; ++j) {
+            const Vec3 p = place(i, j);
+            const Vec3 along_u = i < patch.degree_u ? place(i + 1, j) - p : p - place(i - 1, j), along_v = j < patch.degree_v ? place(i, j + 1) - p : p - place(i, j - 1);
+            const double a = length(along_u), b = length(along_v);
+            least_u = std::min(least_u, a), least_v = std::min(least_v, b);
+            if (a > 0 && b > 0) least_sine = std::min(least_sine, length(cross(along_u, along_v)) / (a * b));
+            if (axis) least_radius = std::min(least_radius, length(cross(p - axis->origin, axis->z)));
+        }
+    }
+    const ParameterBox box{std::min(patch.u0, patch.u1), std::max(patch.u0, patch.u1), std::min(patch.v0, patch.v1), std::max(patch.v0, patch.v1)};
+    if (axis) return {box, {0.5 * least_radius, 0.5 * least_v * per_v}};
+    return {box, {0.5 * least_sine * least_u * per_u, 0.5 * least_sine * least_v * per_v}};
+}
+
+// Angle about the axis, from -pi to pi.
+double angle(const Frame& axis, Vec3 position) {
+    const Vec3 p = position - axis.origin;
+    return std::atan2(dot(p, axis.y), dot(p, axis.x));
+}
+
+}  // namespace
+
+Expected<void> Brep::add_patches(const Face& face, const PatchSurface& surface) {
+    if (surface.patches.empty()) return failure(ErrorKind::input, {"", "", "a spline surface without patches", ""});
+    double band = 0;
+    for (const Loop& loop : face.loops) {
+        for (const LoopEdge& edge : loop) band = std::max(band, edge.band);
+    }
+    if (!(band < 1e30)) return failure(ErrorKind::input, {"", "", "a band that is no length", ""});
+    Patches patches{surface, PatchLeaves(surface.patches, band)};
+    std::vector<bool> covered(surface.patches.size());
+    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) covered[patches.leaves.patch(leaf)] = true;
+    if (const auto bad = std::find(covered.begin(), covered.end(), false); bad != covered.end()) {
+        return failure(ErrorKind::input, {"", "patch " + std::to_string(bad - covered.begin()), "a degree out of range, a weight that is not positive or numbers that are not finite", ""});
+    }
+    const Frame* axis = surface.revolved ? &*surface.revolved : nullptr;
+    std::vector<PatchSteps> steps;
+    for (const BezierPatch& patch : surface.patches) steps.push_back(patch_steps(patch, axis));
+    const auto least = [&](const ParameterBox& box) {
+        Point2 step{infinity, infinity};
+        for (const PatchSteps& s : steps) {
+            const bool apart = s.box.v1 < box.v0 || s.box.v0 > box.v1 || (!axis && (s.box.u1 < box.u0 || s.box.u0 > box.u1));
+            if (!apart) step = {std::min(step.u, s.step.u), std::min(step.v, s.step.v)};
+        }
+        return step.u < infinity ? step : Point2{0, 0};
+    };
+    auto trimming = Trimming::make(face, {axis ? 2 * pi : 0, 0}, least);
+    if (!trimming) return tl::unexpected(trimming.error());
+
+    const auto index = static_cast<std::uint32_t>(faces_.size()), set = static_cast<std::uint32_t>(patches_.size());
+    const double margin = 2 * trimming->widest_band();
+    const std::size_t first = leaves_.size();
+    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) {
+        if (!axis && trimming->all_outside(patches.leaves.range(leaf))) continue;
+        Bounds box = patches.leaves.bounds(leaf);
+        const Vec3 grow = Vec3{1, 1, 1} * margin;
+        leaves_.push_back({{box.lower - grow, box.upper + grow}, index, leaf});
+    }
+    if (leaves_.size() == first) return failure(ErrorKind::input, {"", "", "loops that lie beside the surface", ""});
+    faces_.push_back({{}, set, face.reversed, face.slot, std::move(*trimming)});
+    patches_.push_back(std::move(patches));
+    return {};
+}
+
+Trimming::Located Brep::locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position) const {
+    const Patches& patches = patches_[face.patches];
+    const Frame* axis = patches.plain.revolved ? &*patches.plain.revolved : nullptr;
+    const auto metric = [&](Point2) -> Metric {
+        const PatchPoint p = patches.leaves.at(leaf.patch_leaf, root.u, root.v);
+        if (!axis) return {dot(p.along_u, p.along_u), dot(p.along_u, p.along_v), dot(p.along_v, p.along_v)};
+        const Vec3 off = cross(p.position - axis->origin, axis->z);
+        return {dot(off, off), 0, dot(p.along_v, p.along_v)};
+    };
+    return face.trimming.locate({axis ? angle(*axis, position) : root.u, root.v}, metric);
+}
+
+std::optional<ShapeHit> Brep::meet_patch(std::uint32_t part, const TrimmedFace& face, const Ray& ray) const {
+    constexpr int room = 8;
+    const Leaf& leaf = leaves_[part];
+    PatchRoot roots[room];
+    Ray rest = ray;
+    while (true) {
+        const int count = patches_[face.patches].leaves.roots(leaf.patch_leaf, rest, roots);
+        for (int i = 0; i < count; ++i) {
+            const auto located = locate_patch(leaf, face, roots[i], ray.at(roots[i].t));
+            if (located.place == Place::outside || (located.near_edge && !counts(part, ray, roots[i].t, {roots[i].u, roots[i].v}, located))) continue;
+            return ShapeHit{roots[i].t, part};
+        }
+        if (count < room) return std::nullopt;
+        rest.t_min = roots[room - 1].t;
+    }
+}
+
+SurfacePoint Brep::patch_surface(const Leaf& leaf, const TrimmedFace& face, Vec3 position) const {
+    const Patches& patches = patches_[face.patches];
+    SurfacePoint point = patches.leaves.surface(leaf.patch_leaf, position);
+    if (patches.plain.revolved) {
+        const Point2 at = locate_patch(leaf, face, {0, point.u, point.v}, point.position).at;
+        point.u = at.u, point.v = at.v;
+    }
+    return point;
+}
+
+}  // namespace crescente::geometry

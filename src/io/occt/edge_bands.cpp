@@ -1,0 +1,103 @@
+#include "io/occt/edge_bands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <BRepBndLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListIteratorOfListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+
+#include "io/occt/free_edges.h"
+#include "io/occt/vectors.h"
+
+namespace crescente::io::occt {
+namespace {
+
+using math::Vec3;
+using math::operator-;
+
+constexpr int places = 12;
+constexpr double least_band = 1e-6;  // of the diagonal
+
+// The points that one face gives an edge.
+void add_side(const TopoDS_Edge& edge, const TopoDS_Face& face, std::vector<EdgePoints>& sides) {
+    double t0, t1;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+    if (curve.IsNull() || !std::isfinite(t0) || !std::isfinite(t1)) return;
+    TopLoc_Location location;
+    const Handle(Geom_Surface)& surface = BRep_Tool::Surface(face, location);
+    if (surface.IsNull()) return;
+    EdgePoints points;
+    for (int i = 0; i < places; ++i) {
+        const gp_Pnt2d p = curve->Value(t0 + (t1 - t0) * i / (places - 1));
+        gp_Pnt q = surface->Value(p.X(), p.Y());
+        if (!location.IsIdentity()) q.Transform(location.Transformation());
+        points.push_back(vec(q));
+    }
+    sides.push_back(std::move(points));
+}
+
+std::vector<EdgePoints> sides_of(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) {
+    std::vector<EdgePoints> sides;
+    for (TopTools_ListIteratorOfListOfShape face(faces); face.More(); face.Next()) {
+        const TopoDS_Face forward = TopoDS::Face(face.Value().Oriented(TopAbs_FORWARD));
+        add_side(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), forward, sides);
+        if (BRep_Tool::IsClosed(edge, forward)) add_side(TopoDS::Edge(edge.Oriented(TopAbs_REVERSED)), forward, sides);
+    }
+    return sides;
+}
+
+}  // namespace
+
+EdgeBands::EdgeBands(const TopoDS_Shape& part) {
+    Bnd_Box box;
+    BRepBndLib::Add(part, box, false);
+    diagonal_ = box.IsVoid() || box.IsOpen() ? 1 : std::sqrt(box.SquareExtent());
+    floor_ = least_band * diagonal_;
+    TopTools_IndexedDataMapOfShapeListOfShape edges;
+    TopExp::MapShapesAndUniqueAncestors(part, TopAbs_EDGE, TopAbs_FACE, edges);
+    std::vector<FreeEdge> free_edges;
+    for (int i = 1; i <= edges.Extent(); ++i) {
+        const TopoDS_Edge& edge = TopoDS::Edge(edges.FindKey(i));
+        const TopTools_ListOfShape& faces = edges(i);
+        if (faces.IsEmpty()) continue;
+        const double tolerance = BRep_Tool::Tolerance(edge);
+        largest_tolerance_ = std::max(largest_tolerance_, tolerance);
+        double gap = 0;
+        if (!BRep_Tool::Degenerated(edge)) {
+            std::vector<EdgePoints> sides;
+            try {
+                sides = sides_of(edge, faces);
+            } catch (const Standard_Failure&) {  // of a curve or surface that cannot be evaluated: its face will tell
+            }
+            for (std::size_t side = 1; side < sides.size(); ++side) gap = std::max(gap, distance_between(sides[0], sides[side]));
+            if (sides.size() == 1) free_edges.push_back({i, tolerance, std::move(sides[0])});
+        }
+        largest_gap_ = std::max(largest_gap_, gap);
+        bands_.Bind(edge, std::max(tolerance, gap));
+    }
+    for (const FreeEdgeGap& found : gaps_between(free_edges, diagonal_)) {
+        double& band = bands_.ChangeFind(edges.FindKey(free_edges[found.edge].id));
+        band = std::max(band, found.gap);
+        largest_gap_ = std::max(largest_gap_, found.gap);
+        unmatched_ -= found.matched;
+    }
+    unmatched_ += free_edges.size();
+}
+
+double EdgeBands::band(const TopoDS_Edge& edge) const {
+    const double* found = bands_.Seek(edge);
+    return (found ? *found : BRep_Tool::Tolerance(edge)) + floor_;
+}
+
+}  // namespace crescente::io::occt
