@@ -1,0 +1,252 @@
+// The certified intersection of a ray with a leaf, after the family of Toth 1985 ("On ray tracing parametric surfaces": uniqueness first, then
+// Newton), Nishita, Sederberg, Kakimoto 1990 (the projected net and exclusion by its hull) and Srijuntongsiri, Vavasis 2006 (arXiv cs/0608090:
+// subdivision of the preconditioned Bernstein form).
+//
+// The ray is two planes; the signed distances of the control points, times the weights, are the Bernstein coefficients of two functions f, g
+// of (u, v) that both vanish where the ray meets the surface. On a box of parameters, scaled to [0, 1]^2:
+//  1. f or g has coefficients of one sign only: no root.
+//  2. (a, b) = the inverse of the mean Jacobian times (f, g), near to (u - u*, v - v*): exclusion as before, now by a tight parallelogram.
+//  3. With |a_u - 1| <= k11, |a_v| <= k12, |b_u| <= k21, |b_v - 1| <= k22 from the coefficients of the derivatives, and k11 + k12 and
+//     k21 + k22 below 1, (a, b) is one to one: there is one root at most, and Newton's method, kept inside the box, finds it or ends at the border.
+//     There, at u = 0 say, a root in the box would need a <= |b| k12 / (1 - k22): from 0 = a + a_u du + a_v dv, 0 = b + b_u du + b_v dv with
+//     du >= 0. If that does not hold there is none.
+//  4. What is still undecided is halved, and halves are tried again.
+// `delta` bounds the rounding of coefficients, so all this holds for the computed numbers too, and boxes overlap by more than rounding can move roots.
+//
+// The functions are written for T = double and for T = Lanes (one ray a lane) alike, which gives the same bits.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "geometry/bernstein.h"
+#include "geometry/ray_view.h"
+#include "math/lanes.h"
+
+namespace crescente::geometry {
+
+inline double absolute(double x) { return std::abs(x); }
+inline Lanes absolute(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(x) & 0x7fffffffffffffff); }
+template <class T>
+inline T lesser(const T& a, const T& b) {
+    return a < b ? a : b;
+}
+template <class T>
+inline T greater(const T& a, const T& b) {
+    return a > b ? a : b;
+}
+inline bool any(bool mask) { return mask; }
+inline bool any(LaneMask mask) { return bits_of(mask) != 0; }
+
+// The number of the kernel compiled for these degrees; 0: the general one.
+std::uint8_t patch_kernel_of(int degree_u, int degree_v);
+
+// Degrees known to the compiler, or not.
+template <int P, int Q>
+struct FixedDegrees {
+    static constexpr int u = P, v = Q, count = (P + 1) * (Q + 1), room = count, room_u = P + 1, room_v = Q + 1;
+};
+struct AnyDegrees {
+    static constexpr int room_u = max_patch_degree + 1, room_v = room_u, room = room_u * room_v;
+    int u, v, count;
+};
+
+// Control points about the leaf's center, by component.
+struct LeafPoints {
+    const double *x, *y, *z, *w;  // w: null for weights of 1
+};
+
+// A ray about the leaf's center.
+template <class T>
+struct PatchRay {
+    Point3<T> origin, direction;  // direction: of unit length
+    Point3<T> across, up;         // perpendicular to it and each other
+    T speed;                      // length of the ray's own direction
+    T delta;                      // bound on the rounding of coefficients
+
+    // reach: of the leaf's coordinates about the center, or of what they are rounded from.
+    PatchRay(const Point3<T>& from, const Point3<T>& along, math::Vec3 center, double reach) {
+        const T size = greater(greater(absolute(along.x), absolute(along.y)), absolute(along.z));
+        const T scale = 1.0 / size;  // so that lengths neither overflow nor vanish
+        const T x = along.x * scale, y = along.y * scale, z = along.z * scale;
+        const T length = square_root(x * x + y * y + z * z);
+        const T inverse = 1.0 / length;
+        direction = {x * inverse, y * inverse, z * inverse};
+        speed = length * size;
+        origin = {from.x - center.x, from.y - center.y, from.z - center.z};
+        // Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+        const T sign = direction.z < 0.0 ? T{} - 1.0 : T{} + 1.0;
+        const T a = -1.0 / (sign + direction.z), b = direction.x * direction.y * a;
+        across = {1.0 + sign * direction.x * direction.x * a, sign * b, -sign * direction.x};
+        up = {b, sign + direction.y * direction.y * a, -direction.y};
+        delta = (reach + greater(greater(absolute(origin.x), absolute(origin.y)), absolute(origin.z))) * (16 * std::numeric_limits<double>::epsilon());
+    }
+
+    auto usable() const { return (speed > 0.0) & (speed < HUGE_VAL) & (delta < HUGE_VAL); }
+};
+
+template <class D, class T>
+void project(D degrees, const LeafPoints& points, const PatchRay<T>& ray, T* f, T* g) {
+    const auto &o = ray.origin, &n = ray.across, &m = ray.up;
+    const T fo = -fused_multiply_add(n.x, o.x, fused_multiply_add(n.y, o.y, n.z * o.z));
+    const T go = -fused_multiply_add(m.x, o.x, fused_multiply_add(m.y, o.y, m.z * o.z));
+    const T none = T{};
+    for (int k = 0; k < degrees.count; ++k) {
+        const T x = none + points.x[k], y = none + points.y[k], z = none + points.z[k];
+        f[k] = fused_multiply_add(n.x, x, fused_multiply_add(n.y, y, n.z * z));
+        g[k] = fused_multiply_add(m.x, x, fused_multiply_add(m.y, y, m.z * z));
+    }
+    if (points.w) {
+        for (int k = 0; k < degrees.count; ++k) f[k] += fo * points.w[k], g[k] += go * points.w[k];
+    } else {
+        for (int k = 0; k < degrees.count; ++k) f[k] += fo, g[k] += go;
+    }
+}
+
+// Whether all values are above `delta` or all are below -delta.
+template <class D, class T>
+auto one_sided(D degrees, const T* values, const T& delta) {
+    T least = values[0], most = values[0];
+    for (int k = 1; k < degrees.count; ++k) least = lesser(values[k], least), most = greater(values[k], most);
+    return (least > delta) | (most < -delta);
+}
+
+template <class T>
+struct ValueAndSlopes {
+    T value, u, v;
+};
+
+// Of the polynomial with these coefficients, given the Bernstein polynomials.
+template <class D, class T>
+ValueAndSlopes<T> evaluate(D degrees, const T* coefficients, const T* bu, const T* su, const T* bv, const T* sv) {
+    ValueAndSlopes<T> sum{};
+    for (int i = 0; i <= degrees.u; ++i) {
+        const T* row = coefficients + i * (degrees.v + 1);
+        T value = row[0] * bv[0], slope = row[0] * sv[0];
+        for (int j = 1; j <= degrees.v; ++j) value = fused_multiply_add(row[j], bv[j], value), slope = fused_multiply_add(row[j], sv[j], slope);
+        sum.value = fused_multiply_add(value, bu[i], sum.value);
+        sum.u = fused_multiply_add(value, su[i], sum.u);
+        sum.v = fused_multiply_add(slope, bu[i], sum.v);
+    }
+    return sum;
+}
+
+template <class T>
+struct Attempt {
+    using Mask = decltype(T{} < T{});
+    Mask excluded, found;  // neither: undecided
+    T u, v;                // of the root found, in the box's [0, 1]^2
+    T turn;                // sign: of the Jacobian
+};
+
+// Steps 1 to 3 for the box with the coefficients f, g. Lanes outside `wanted` are not tried.
+template <class D, class T>
+Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename Attempt<T>::Mask wanted) {
+    constexpr double certain = 0.95;  // below 1 by more than what the overlap of boxes can add
+    Attempt<T> result{};
+    result.excluded = one_sided(degrees, f, delta) | one_sided(degrees, g, delta);
+    if (!any(wanted & (!result.excluded))) return result;
+
+    const int columns = degrees.v + 1, last = degrees.u * columns;
+    T fu{}, fv{}, gu{}, gv{};
+    for (int j = 0; j < columns; ++j) fu += f[last + j] - f[j], gu += g[last + j] - g[j];
+    for (int i = 0; i <= last; i += columns) fv += f[i + degrees.v] - f[i], gv += g[i + degrees.v] - g[i];
+    const double mean_u = 1.0 / columns, mean_v = 1.0 / (degrees.u + 1);
+    fu *= mean_u, gu *= mean_u, fv *= mean_v, gv *= mean_v;
+    result.turn = fu * gv - fv * gu;
+    const T inverse = 1.0 / result.turn;
+    const T m11 = gv * inverse, m12 = -fv * inverse, m21 = -gu * inverse, m22 = fu * inverse;
+
+    T a[D::room], b[D::room];
+    for (int k = 0; k < degrees.count; ++k) {
+        a[k] = fused_multiply_add(m11, f[k], m12 * g[k]);
+        b[k] = fused_multiply_add(m21, f[k], m22 * g[k]);
+    }
+    const T blur_a = delta * (2.0 * (absolute(m11) + absolute(m12))), blur_b = delta * (2.0 * (absolute(m21) + absolute(m22)));
+    result.excluded |= one_sided(degrees, a, blur_a) | one_sided(degrees, b, blur_b);
+    if (!any(wanted & (!result.excluded))) return result;
+
+    T k11{}, k12{}, k21{}, k22{}, sum_a{}, sum_b{};
+    for (int i = 0; i < degrees.u; ++i) {
+        for (int k = i * columns; k < (i + 1) * columns; ++k) {
+            k11 = greater(absolute(fused_multiply_add(a[k + columns] - a[k], T{} + degrees.u, T{} - 1.0)), k11);
+            k21 = greater(absolute(b[k + columns] - b[k]), k21);
+        }
+    }
+    for (int i = 0; i <= degrees.u; ++i) {
+        for (int k = i * columns; k < i * columns + degrees.v; ++k) {
+            k12 = greater(absolute(a[k + 1] - a[k]), k12);
+            k22 = greater(absolute(fused_multiply_add(b[k + 1] - b[k], T{} + degrees.v, T{} - 1.0)), k22);
+        }
+    }
+    k21 *= degrees.u, k12 *= degrees.v;
+    for (int k = 0; k < degrees.count; ++k) sum_a += a[k], sum_b += b[k];
+    const double mean = 1.0 / degrees.count;
+
+    constexpr double least_overlap = 1e-11, precise = 1e-8, too_blurred = 0.01;
+    auto active = wanted & (!result.excluded) & (k11 + k12 < certain) & (k21 + k22 < certain) & (blur_a < too_blurred) & (blur_b < too_blurred);
+    const T low_u = -least_overlap - 2.0 * blur_a, high_u = 1.0 - low_u, low_v = -least_overlap - 2.0 * blur_b, high_v = 1.0 - low_v;
+    const T lean_a = k12 / (1.0 - k22), lean_b = k21 / (1.0 - k11);
+    T u = lesser(greater(0.5 - sum_a * mean, low_u), high_u), v = lesser(greater(0.5 - sum_b * mean, low_v), high_v);
+    for (int step = 0; step < 10 && any(active); ++step) {
+        T bu[D::room_u], su[D::room_u], bv[D::room_v], sv[D::room_v];
+        bernstein(degrees.u, u, bu, su);
+        bernstein(degrees.v, v, bv, sv);
+        // On f and g themselves: a and b lose digits where the surface is seen at a flat angle.
+        const ValueAndSlopes<T> at_f = evaluate(degrees, f, bu, su, bv, sv), at_g = evaluate(degrees, g, bu, su, bv, sv);
+        const T at_a = fused_multiply_add(m11, at_f.value, m12 * at_g.value), at_b = fused_multiply_add(m21, at_f.value, m22 * at_g.value);
+        const T reach_a = fused_multiply_add(absolute(at_b), lean_a, blur_a), reach_b = fused_multiply_add(absolute(at_a), lean_b, blur_b);
+        const auto outside = active & (((u == low_u) & (at_a > reach_a)) | ((u == high_u) & (-at_a > reach_a)) |
+                                       ((v == low_v) & (at_b > reach_b)) | ((v == high_v) & (-at_b > reach_b)));
+        result.excluded |= outside;
+        active &= !outside;
+
+        const T scale = 1.0 / (at_f.u * at_g.v - at_f.v * at_g.u);
+        const T free_u = u - (at_g.v * at_f.value - at_f.v * at_g.value) * scale, free_v = v - (at_f.u * at_g.value - at_g.u * at_f.value) * scale;
+        const T next_u = lesser(greater(free_u, low_u), high_u), next_v = lesser(greater(free_v, low_v), high_v);
+        const auto kept = ((next_u != free_u) | (next_v != free_v));
+        const T stride = greater(absolute(next_u - u), absolute(next_v - v));
+        const auto here = (absolute(at_f.value) <= delta) & (absolute(at_g.value) <= delta);
+        // Newton's convergence is quadratic: after a step below `precise` the error is below rounding.
+        const auto arrived = active & (here | ((!kept) & (stride <= precise)));
+        u = active ? next_u : u, v = active ? next_v : v;
+        result.found |= arrived;
+        // At rest at the border, yet neither found nor excluded: undecided.
+        active &= !(arrived | (kept & (stride == 0.0)));
+    }
+    result.u = u, result.v = v;
+    return result;
+}
+
+// The ray's parameter at (u, v) of the leaf's [0, 1]^2.
+template <class D, class T>
+T parameter_at(D degrees, const LeafPoints& points, const PatchRay<T>& ray, const T& u, const T& v) {
+    T bu[D::room_u], su[D::room_u], bv[D::room_v], sv[D::room_v];
+    bernstein(degrees.u, u, bu, su);
+    bernstein(degrees.v, v, bv, sv);
+    Point3<T> sum{};
+    T weight{};
+    for (int i = 0; i <= degrees.u; ++i) {
+        const int k = i * (degrees.v + 1);
+        Point3<T> row{};
+        T row_weight{};
+        for (int j = 0; j <= degrees.v; ++j) {
+            row.x = fused_multiply_add(T{} + points.x[k + j], bv[j], row.x);
+            row.y = fused_multiply_add(T{} + points.y[k + j], bv[j], row.y);
+            row.z = fused_multiply_add(T{} + points.z[k + j], bv[j], row.z);
+            if (points.w) row_weight = fused_multiply_add(T{} + points.w[k + j], bv[j], row_weight);
+        }
+        sum.x = fused_multiply_add(row.x, bu[i], sum.x);
+        sum.y = fused_multiply_add(row.y, bu[i], sum.y);
+        sum.z = fused_multiply_add(row.z, bu[i], sum.z);
+        if (points.w) weight = fused_multiply_add(row_weight, bu[i], weight);
+    }
+    if (points.w) {
+        const T inverse = 1.0 / weight;
+        sum.x *= inverse, sum.y *= inverse, sum.z *= inverse;
+    }
+    const auto &o = ray.origin, &d = ray.direction;
+    return ((sum.x - o.x) * d.x + (sum.y - o.y) * d.y + (sum.z - o.z) * d.z) / ray.speed;
+}
+
+}  // namespace crescente::geometry

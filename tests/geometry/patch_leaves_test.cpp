@@ -1,0 +1,177 @@
+// Leaves of patches against an oracle that only subdivides. CRESCENTE_PATCH_RAYS=100000 tries so many rays of each kind instead of a few.
+#include "geometry/patch_leaves.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+
+#include "geometry/bernstein.h"
+#include "patch_oracle.h"
+#include "shape_check.h"
+
+namespace crescente::geometry::test {
+namespace {
+
+int rays_of_a_kind() {
+    const char* text = std::getenv("CRESCENTE_PATCH_RAYS");
+    return text ? std::atoi(text) : 600;
+}
+
+// A net over [-1, 1]^2 that bends as much as `wave`.
+BezierPatch wavy(int p, int q, double wave, bool rational, Random& random) {
+    BezierPatch patch{p, q, rational, -1, 2, 3, 5, {}};
+    for (int i = 0; i <= p; ++i) {
+        for (int j = 0; j <= q; ++j) {
+            const Vec3 jitter = random.inside_cube() * wave;
+            const double w = rational ? std::exp(random.between(-1, 1)) : 1;
+            const Vec3 at{2.0 * i / p - 1 + 0.4 * jitter.x / p, 2.0 * j / q - 1 + 0.4 * jitter.y / q, jitter.z};
+            patch.points.push_back({at * w, w});
+        }
+    }
+    return patch;
+}
+
+BezierPatch moved(BezierPatch patch, double scale, Vec3 offset) {
+    for (ControlPoint& c : patch.points) c.weighted = (c.weighted * scale) + offset * c.weight;
+    return patch;
+}
+
+Vec3 point(const PatchOracle& oracle, double u, double v) {
+    const auto p = oracle.at(u, v);
+    return oracle.corner() + Vec3{double(p.x), double(p.y), double(p.z)};
+}
+
+enum class Aim { anywhere, grazing, border };
+
+Ray aimed(const PatchOracle& oracle, Aim aim, double size, double away, Random& random) {
+    double u = random.between(-0.1, 1.1), v = random.between(-0.1, 1.1);
+    if (aim == Aim::border) {  // of leaves: these are at halves, quarters ...
+        const double at = std::ldexp(double(random.bits() % 17), -4);
+        (random.bits() % 2 ? u : v) = at;
+    }
+    const Vec3 target = point(oracle, u, v);
+    Vec3 along = random.direction();
+    if (aim == Aim::grazing) {
+        const double h = 1e-6;
+        const Vec3 du = (point(oracle, u + h, v) - target) / h, dv = (point(oracle, u, v + h) - target) / h;
+        const double turn = random.between(0, 2 * pi);
+        along = normalize(normalize(du) * std::cos(turn) + normalize(dv) * std::sin(turn));
+        along = normalize(along + random.direction() * std::exp2(random.between(-30, -3)));
+    }
+    return {target - along * (away * size), along * std::exp2(random.between(-3, 3)), -HUGE_VAL, HUGE_VAL};
+}
+
+std::vector<PatchRoot> all_roots(const PatchLeaves& leaves, const Ray& ray) {
+    std::vector<PatchRoot> all;
+    for (std::uint32_t leaf = 0; leaf < leaves.count(); ++leaf) {
+        std::array<PatchRoot, 16> some;
+        const int count = leaves.roots(leaf, ray, some);
+        for (int i = 0; i < count; ++i) {
+            EXPECT_TRUE(i == 0 || some[i - 1].t <= some[i].t);
+            all.push_back(some[i]);
+        }
+    }
+    return all;
+}
+
+struct Tally {
+    int rays = 0, roots = 0, unclear = 0, hopeless = 0;
+};
+
+void compare(const BezierPatch& patch, const PatchLeaves& leaves, const PatchOracle& oracle, const Ray& ray, double size, Tally& tally) {
+    ++tally.rays;
+    const Vec3 corner = patch.points[0].weighted / patch.points[0].weight;
+    const double reach = length(ray.origin - corner) + 2 * size + (patch.rational ? length(corner) : 0), blur = 1e-6 + 2e3 * eps * reach / size;
+    const std::vector<OracleRoot> truth = oracle.roots(ray, Real{2 * blur});
+    if (oracle.hopeless()) {
+        ++tally.hopeless;
+        return;
+    }
+    std::vector<PatchRoot> roots = all_roots(leaves, ray);
+    for (PatchRoot& r : roots) r.u = (r.u - patch.u0) / (patch.u1 - patch.u0), r.v = (r.v - patch.v0) / (patch.v1 - patch.v0);
+    // Where leaves meet they may both have the root.
+    std::sort(roots.begin(), roots.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+    const double speed = length(ray.direction);
+    const auto near = [&](const PatchRoot& r, const OracleRoot& o) {
+        const double u = blur + o.blurred * double(o.u1 - o.u0), v = blur + o.blurred * double(o.v1 - o.v0);
+        return r.u > o.u0 - u && r.u < o.u1 + u && r.v > o.v0 - v && r.v < o.v1 + v;
+    };
+    bool unclear = false;
+    for (const OracleRoot& o : truth) {
+        const bool inside = o.u0 > 1e-12 && o.u1 < 1 - 1e-12 && o.v0 > 1e-12 && o.v1 < 1 - 1e-12;
+        int met = 0;
+        const PatchRoot* last = nullptr;
+        for (const PatchRoot& r : roots) {
+            if (!near(r, o)) continue;
+            if (!last || std::abs(r.u - last->u) > blur || std::abs(r.v - last->v) > blur) ++met;
+            last = &r;
+        }
+        if (!inside || o.winding == 0) {
+            unclear = true;
+            continue;
+        }
+        ++tally.roots;
+        ASSERT_TRUE(o.blurred ? met >= 1 : met == 1) << met << "of " << roots.size() << " at u " << double(o.u0) << " v " << double(o.v0) << " t " << double(o.t0) << " ray " << tally.rays;
+        if (o.blurred) continue;
+        ASSERT_LE(std::abs(double(last->t - (o.t0 + o.t1) / 2)) * speed, double(o.t1 - o.t0) * speed + 1e-6 * size + 64 * eps * reach);
+    }
+    tally.unclear += unclear;
+    for (const PatchRoot& r : roots) {
+        bool known = false;
+        for (const OracleRoot& o : truth) known = known || near(r, o);
+        ASSERT_TRUE(known) << "no root at u " << r.u << " v " << r.v << " t " << r.t;
+        const auto at = oracle.at(r.u, r.v);
+        const Exact on{at.x + corner.x, at.y + corner.y, at.z + corner.z};
+        ASSERT_LE(distance(on, on_ray(ray, r.t)), 512 * eps * reach) << "u " << r.u << " v " << r.v;
+    }
+}
+
+struct Placement {
+    double scale, offset, away;
+};
+constexpr Placement placements[] = {{1, 0, 3}, {1e-3, 0, 3}, {1e3, 0, 100}, {1, 1e6, 3}, {1e-3, 1e6, 3}, {1e3, 1e6, 3}};
+
+void check_degrees(int p, int q, bool rational, double wave) {
+    const bool failed_before = ::testing::Test::HasFatalFailure();
+    for (const Placement& place : placements) {
+        Random random(static_cast<std::uint64_t>(p * 100 + q * 10 + rational));
+        Tally tally;
+        const Vec3 offset = Vec3{1, -0.7, 0.4} * place.offset;
+        const int kinds = 3, patches = 4, count = rays_of_a_kind() / static_cast<int>(std::size(placements)) / kinds / patches + 1;
+        for (int k = 0; k < patches; ++k) {
+            const BezierPatch patch = moved(wavy(p, q, wave, rational, random), place.scale, offset);
+            const PatchLeaves leaves({&patch, 1});
+            const PatchOracle oracle(patch);
+            for (const Aim aim : {Aim::anywhere, Aim::grazing, Aim::border}) {
+                for (int i = 0; i < count; ++i) {
+                    compare(patch, leaves, oracle, aimed(oracle, aim, place.scale, place.away, random), place.scale, tally);
+                    if (::testing::Test::HasFatalFailure() && !failed_before) {
+                        ADD_FAILURE() << "degrees " << p << " x " << q << " scale " << place.scale << " offset " << place.offset << " patch " << k;
+                        return;
+                    }
+                }
+            }
+        }
+        EXPECT_GT(tally.roots, tally.rays / 3);
+        EXPECT_LT(tally.unclear, tally.rays / 2 + 3);
+        EXPECT_LT(tally.hopeless, tally.rays / 20 + 2);
+    }
+}
+
+TEST(PatchLeaves, Bilinear) { check_degrees(1, 1, false, 1); }
+TEST(PatchLeaves, LinearBySquare) { check_degrees(1, 2, false, 0.7), check_degrees(2, 1, true, 0.7); }
+TEST(PatchLeaves, Biquadratic) { check_degrees(2, 2, false, 0.7), check_degrees(2, 2, true, 0.7); }
+TEST(PatchLeaves, LinearByCubic) { check_degrees(1, 3, false, 0.7), check_degrees(3, 1, true, 0.7); }
+TEST(PatchLeaves, QuadraticByCubic) { check_degrees(2, 3, false, 0.7), check_degrees(3, 2, true, 0.7); }
+TEST(PatchLeaves, Bicubic) { check_degrees(3, 3, false, 0.7); }
+TEST(PatchLeaves, BicubicRational) { check_degrees(3, 3, true, 0.7); }
+TEST(PatchLeaves, BicubicTangled) { check_degrees(3, 3, false, 3); }
+TEST(PatchLeaves, Quintic) { check_degrees(1, 5, false, 0.7), check_degrees(5, 1, false, 0.7); }
+TEST(PatchLeaves, CubicByQuintic) { check_degrees(3, 5, false, 0.7), check_degrees(5, 3, true, 0.7); }
+TEST(PatchLeaves, Biquintic) { check_degrees(5, 5, false, 0.7); }
+TEST(PatchLeaves, OddDegrees) { check_degrees(2, 7, true, 0.7), check_degrees(6, 4, true, 0.7); }
+TEST(PatchLeaves, HighDegree) { check_degrees(13, 1, false, 0.7), check_degrees(9, 9, false, 0.7); }
+
+}  // namespace
+}  // namespace crescente::geometry::test
