@@ -25,8 +25,6 @@
 
 namespace crescente::geometry {
 
-inline double absolute(double x) { return std::abs(x); }
-inline Lanes absolute(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(x) & 0x7fffffffffffffff); }
 template <class T>
 inline T lesser(const T& a, const T& b) {
     return a < b ? a : b;
