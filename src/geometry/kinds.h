@@ -33,6 +33,14 @@ inline void prepare(Shape& shape) {
     }, shape);
 }
 
+// The leaves of a shape that is made of patches, part by part; null for other shapes.
+inline const PatchLeaves* patch_leaves(const Shape& shape) {
+    return std::visit([](const auto& s) -> const PatchLeaves* {
+        if constexpr (requires { s.leaves(); }) return s.leaves();
+        else return nullptr;
+    }, shape);
+}
+
 inline Bounds bounds(const Shape& shape) {
     return std::visit([](const auto& s) { return s.bounds(); }, shape);
 }
