@@ -25,12 +25,21 @@ struct Rays {
     Coherence coherence;
 };
 
+// Numbers that depend on the place in the sequence only (SplitMix64; Steele, Lea, Flood 2014), from 0 to 1.
+double random_number(std::uint64_t& state) {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
 // A scene with its accelerators, and the rays of its picture.
 struct Bench {
-    explicit Bench(scene::Scene from) : scene(std::move(from)) {
+    // compare: with Embree alone, which knows triangles and spheres.
+    explicit Bench(scene::Scene from, bool compare = true) : scene(std::move(from)) {
         scene.settings.width = scene.settings.height = edge;
         world = std::move(render::world_of(scene).value());
-        raw = std::make_unique<RawEmbree>(world->instances);
+        if (compare) raw = std::make_unique<RawEmbree>(world->instances);
         make_rays();
     }
 
@@ -46,6 +55,7 @@ struct Bench {
         accel::TestCounts counts;
         world->accelerator->nearest(camera.rays, hits, Coherence::coherent, counts);
         const Vec3 light = scene.lights.front().position;
+        std::uint64_t state = 1;
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!hits[i].found()) continue;
             const accel::Instance& instance = world->instances[hits[i].instance];
@@ -56,6 +66,9 @@ struct Bench {
             const double offset = 1e-4 * length(at - camera.rays[i].origin);
             const Vec3 start = at + normal * offset, to_light = light - start;
             reflected.rays.push_back({start, normalize(in - normal * (2 * dot(in, normal)))});
+            const double height = std::sqrt(random_number(state)), turn = 2 * math::pi * random_number(state), out = std::sqrt(1 - height * height);
+            const Vec3 side = math::perpendicular(normal);
+            bounce.rays.push_back({start, normalize(normal * height + (side * std::cos(turn) + cross(normal, side) * std::sin(turn)) * out)});
             if (dot(to_light, normal) > 0) shadow.rays.push_back({start, normalize(to_light), 0, length(to_light)});
         }
     }
@@ -63,7 +76,7 @@ struct Bench {
     scene::Scene scene;
     std::unique_ptr<render::World> world;
     std::unique_ptr<RawEmbree> raw;
-    Rays camera{{}, Coherence::coherent}, reflected{{}, Coherence::incoherent}, shadow{{}, Coherence::coherent};
+    Rays camera{{}, Coherence::coherent}, reflected{{}, Coherence::incoherent}, bounce{{}, Coherence::incoherent}, shadow{{}, Coherence::coherent};
 };
 
 void count_rays(benchmark::State& state, std::size_t rays, std::size_t hits) {
@@ -146,6 +159,24 @@ void add(const std::string& name, const std::shared_ptr<Bench>& bench) {
     benchmark::RegisterBenchmark((name + "/camera/session").c_str(), [=](auto& s) { run_session(s, *bench); })->Unit(benchmark::kMillisecond);
 }
 
+// Patches, which Embree alone does not know: camera rays, rays scattered evenly from what they hit, and shadow rays.
+void add_patches(const std::string& name, const std::shared_ptr<Bench>& bench) {
+    const auto row = [&](const std::string& kind, const Rays& rays, bool shadows) {
+        benchmark::RegisterBenchmark((name + "/" + kind + "/crescente").c_str(), [=, &rays](auto& s) { run_ours(s, *bench, rays, shadows); })
+            ->Unit(benchmark::kMillisecond);
+    };
+    row("camera", bench->camera, false);
+    row("bounce", bench->bounce, false);
+    row("shadow", bench->shadow, true);
+}
+
+// The teapot without its floor.
+scene::Scene teapot() {
+    scene::Scene scene = load("teapot.json");
+    scene.roots.erase(scene.roots.begin());
+    return scene;
+}
+
 }  // namespace
 }  // namespace crescente::bench
 
@@ -155,6 +186,7 @@ int main(int argc, char** argv) {
     using namespace crescente::bench;
     add("million triangles", std::make_shared<Bench>(bumpy_sphere()));
     add("sphereflake", std::make_shared<Bench>(load("balls4.nff")));
+    add_patches("teapot", std::make_shared<Bench>(teapot(), false));
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
 }

@@ -355,7 +355,16 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
         return true;
     }
     const auto* sphere = std::get_if<geometry::Sphere>(instance.shape);
-    if (!sphere) return false;
+    if (!sphere) {
+        const geometry::PatchLeaves* leaves = geometry::patch_leaves(*instance.shape);
+        if (!leaves || __builtin_popcount(active) < least_patch_rays) return false;
+        for (unsigned lanes = patch_lanes(query.packet_rays, active, instance, *leaves, primitive.index, t); lanes; lanes &= lanes - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+            visit(lane, Hit{t[lane], index, primitive.index});
+        }
+        query.counts.shape_tests += packet;
+        return true;
+    }
     for (unsigned lanes = sphere_lanes(query.packet_rays, active, instance, sphere->radius, t); lanes; lanes &= lanes - 1) {
         const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
         meet(lane, Hit{t[lane], index, 0});

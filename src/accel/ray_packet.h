@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "accel/triangle_clusters.h"
+#include "geometry/patch_leaves.h"
 #include "geometry/sphere.h"
 
 namespace crescente::accel {
@@ -80,6 +81,24 @@ inline unsigned brep_lanes(const RayPacket& rays, unsigned active, const Instanc
         const LocalLanes local(rays, first, instance);
         const geometry::RayLanes lanes{local.origin, local.direction, load(rays.start + first), load(rays.end + first)};
         found |= brep.intersect(part, lanes, wanted, *reinterpret_cast<Lanes*>(t + first)) << first;
+    }
+    return found;
+}
+
+// Fewer rays than this meet a leaf of patches faster one by one.
+inline constexpr int least_patch_rays = 3;
+
+// As sphere_lanes, for a leaf of patches.
+inline unsigned patch_lanes(const RayPacket& rays, unsigned active, const Instance& instance, const geometry::PatchLeaves& leaves, std::uint32_t leaf,
+                            double* t) {
+    unsigned found = 0;
+    for (int first = 0; first < packet_size; first += lane_count) {
+        const unsigned wanted = active >> first & 0xff;
+        if (!wanted) continue;
+        const LocalLanes local(rays, first, instance);
+        geometry::PatchRootLanes roots;
+        found |= leaves.nearest(leaf, {local.origin, local.direction, load(rays.start + first), load(rays.end + first)}, wanted, roots) << first;
+        *reinterpret_cast<Lanes*>(t + first) = roots.t;
     }
     return found;
 }

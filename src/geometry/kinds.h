@@ -4,24 +4,43 @@
 #include <string_view>
 #include <variant>
 
+#include "geometry/bicubic.h"
 #include "geometry/box.h"
 #include "geometry/brep.h"
 #include "geometry/cone.h"
 #include "geometry/cylinder.h"
 #include "geometry/disk.h"
 #include "geometry/mesh.h"
+#include "geometry/nurbs.h"
 #include "geometry/plane.h"
 #include "geometry/polygon.h"
 #include "geometry/sphere.h"
+#include "geometry/swept.h"
 #include "geometry/torus.h"
 
 namespace crescente::geometry {
 
-using Shape = std::variant<Sphere, Box, Cone, Cylinder, Torus, Disk, Plane, Polygon, Mesh, Brep>;
+using Shape = std::variant<Sphere, Box, Cone, Cylinder, Torus, Disk, Plane, Polygon, Mesh, Bicubic, Nurbs, Revolution, Extrusion, Ruled, Brep>;
 
 // Names in files, in the order of the variant.
-inline constexpr std::string_view shape_names[] = {"sphere", "box", "cone", "cylinder", "torus", "disk", "plane", "polygon", "mesh", "brep"};
+inline constexpr std::string_view shape_names[] = {"sphere", "box", "cone", "cylinder", "torus", "disk", "plane", "polygon", "mesh", "bicubic", "nurbs",
+                                                  "revolution", "extrusion", "ruled", "brep"};
 static_assert(std::size(shape_names) == std::variant_size_v<Shape>);
+
+// Derives what rays need, for shapes that need more than their description. Before a shape is traced, and again after it was changed.
+inline void prepare(Shape& shape) {
+    std::visit([](auto& s) {
+        if constexpr (requires { s.prepare(); }) s.prepare();
+    }, shape);
+}
+
+// The leaves of a shape that is made of patches, part by part; null for other shapes.
+inline const PatchLeaves* patch_leaves(const Shape& shape) {
+    return std::visit([](const auto& s) -> const PatchLeaves* {
+        if constexpr (requires { s.leaves(); }) return s.leaves();
+        else return nullptr;
+    }, shape);
+}
 
 inline Bounds bounds(const Shape& shape) {
     return std::visit([](const auto& s) { return s.bounds(); }, shape);

@@ -25,8 +25,6 @@
 
 namespace crescente::geometry {
 
-inline double absolute(double x) { return std::abs(x); }
-inline Lanes absolute(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(x) & 0x7fffffffffffffff); }
 template <class T>
 inline T lesser(const T& a, const T& b) {
     return a < b ? a : b;
@@ -186,6 +184,8 @@ Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename A
     constexpr double least_overlap = 1e-11, precise = 1e-8, too_blurred = 0.01;
     auto active = wanted & (!result.excluded) & (k11 + k12 < certain) & (k21 + k22 < certain) & (blur_a < too_blurred) & (blur_b < too_blurred);
     const T low_u = -least_overlap - 2.0 * blur_a, high_u = 1.0 - low_u, low_v = -least_overlap - 2.0 * blur_b, high_v = 1.0 - low_v;
+    // Newton's convergence is quadratic: after a step below `precise` the error is below rounding, if the step itself was not rounded much.
+    const auto sharp = (blur_a < 1e-6) & (blur_b < 1e-6);
     const T lean_a = k12 / (1.0 - k22), lean_b = k21 / (1.0 - k11);
     T u = lesser(greater(0.5 - sum_a * mean, low_u), high_u), v = lesser(greater(0.5 - sum_b * mean, low_v), high_v);
     for (int step = 0; step < 10 && any(active); ++step) {
@@ -207,9 +207,9 @@ Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename A
         const auto kept = ((next_u != free_u) | (next_v != free_v));
         const T stride = greater(absolute(next_u - u), absolute(next_v - v));
         const auto here = (absolute(at_f.value) <= delta) & (absolute(at_g.value) <= delta);
-        // Newton's convergence is quadratic: after a step below `precise` the error is below rounding.
-        const auto arrived = active & (here | ((!kept) & (stride <= precise)));
-        u = active ? next_u : u, v = active ? next_v : v;
+        const auto arrived = active & (here | (sharp & (!kept) & (stride <= precise)));
+        const auto stepping = active & (sharp | (!here));
+        u = stepping ? next_u : u, v = stepping ? next_v : v;
         result.found |= arrived;
         // At rest at the border, yet neither found nor excluded: undecided.
         active &= !(arrived | (kept & (stride == 0.0)));

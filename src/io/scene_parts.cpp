@@ -4,6 +4,7 @@
 
 #include "base/spelling.h"
 #include "io/scene_words.h"
+#include "io/spline_parts.h"
 
 namespace crescente::io {
 namespace {
@@ -119,12 +120,15 @@ void read_arrays(const Json& json, geometry::Polygon& polygon, const Measure& me
 }
 
 template <class Kind>
-void read_arrays(const Json&, Kind&, const Measure&, const Place&, ProblemList&) {}
+void read_arrays(const Json& json, Kind& shape, const Measure& measure, const Place& place, ProblemList& problems) {
+    if constexpr (has_spline_arrays<Kind>) read_spline_arrays(json, shape, measure, place, problems);
+}
 
 template <class Kind>
 std::vector<std::string> array_names() {
     if constexpr (std::is_same_v<Kind, geometry::Mesh>) return names_of(mesh_words());
     else if constexpr (std::is_same_v<Kind, geometry::Polygon>) return names_of(polygon_words());
+    else if constexpr (has_spline_arrays<Kind>) return names_of(spline_words<Kind>());
     else return {};
 }
 

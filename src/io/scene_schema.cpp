@@ -3,6 +3,7 @@
 #include "io/json_fields.h"
 #include "io/json_print.h"
 #include "io/scene_words.h"
+#include "io/spline_parts.h"
 #include "scene/scene.h"
 
 namespace crescente::io {
@@ -77,7 +78,9 @@ void add_arrays(const geometry::Polygon&, ordered_json& schema) {
     schema["required"] = {"loops"};
 }
 template <class Kind>
-void add_arrays(const Kind&, ordered_json&) {}
+void add_arrays(const Kind&, ordered_json& schema) {
+    if constexpr (has_spline_arrays<Kind>) add_spline_schema<Kind>(schema);
+}
 
 // Calls visit(name, a default shape) for each kind that a native scene can spell out: faces of CAD parts come from their own files.
 template <class Visit, std::size_t i = 0>
@@ -271,10 +274,13 @@ std::string scene_reference() {
         using Kind = std::remove_cvref_t<decltype(shape)>;
         out += "\n### " + name + "\n\n";
         if (!Kind::fields().empty()) out += field_table(Kind::fields());
+        if constexpr (has_spline_arrays<Kind>) out += (Kind::fields().empty() ? "" : "\n") + word_table(spline_words<Kind>());
+        else if (!Kind::fields().empty()) return;
         else if constexpr (std::is_same_v<Kind, geometry::Mesh>) out += word_table(mesh_words());
         else if constexpr (std::is_same_v<Kind, geometry::Polygon>) out += word_table(polygon_words());
         else out += "No parameters.\n";
     });
+    out += "\n### Curves\n\nOf revolution, extrusion and ruled.\n\n" + field_table(geometry::Curve::fields()) + "\n" + word_table(curve_words());
     out += "\n## Objects and groups\n\n" + word_table(object_words());
     out += "\n### Steps of a transform\n\n" + word_table(transform_words());
     out += "\n### rotate\n\n" + word_table(rotate_words());

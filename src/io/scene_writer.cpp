@@ -7,6 +7,7 @@
 #include "io/json_print.h"
 #include "io/scene_file.h"
 #include "io/scene_words.h"
+#include "io/spline_parts.h"
 
 namespace crescente::io {
 namespace {
@@ -156,7 +157,9 @@ private:
     ordered_json point(math::Vec3 p) const { return ordered_json::array({length(p.x), length(p.y), length(p.z)}); }
 
     template <class Kind>
-    void write_arrays(const Kind&, ordered_json&) {}
+    void write_arrays(const Kind& shape, ordered_json& json) {
+        if constexpr (has_spline_arrays<Kind>) write_spline_arrays(shape, measure_, json);
+    }
     void write_arrays(const geometry::Polygon& polygon, ordered_json& json) {
         ordered_json loops = ordered_json::array();
         for (const auto& loop : polygon.loops) {

@@ -46,7 +46,7 @@ inline Lanes lane_by_lane(Lanes x, auto&& f) {
     return x;
 }
 
-inline Lanes absolute(Lanes x) { return x < 0.0 ? -x : x; }
+inline Lanes absolute(Lanes x) { return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(x) & 0x7fffffffffffffff); }
 
 // Eight rows become eight columns.
 inline void transpose(Lanes (&rows)[lane_count]) {

@@ -19,6 +19,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     if (!scene.camera) return failure(ErrorKind::input, {"", "/camera", "the scene has no camera", ""});
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
     auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
+    for (scene::NamedShape& shape : world->scene.shapes) geometry::prepare(shape.shape);
     const scene::Scene& s = world->scene;
     for (const scene::Material& material : s.materials) world->lobes.push_back(compile(material));
     world->lobes.push_back(compile(scene::Material{}));

@@ -133,6 +133,14 @@ private:
         if (disk.inner_radius >= disk.radius) add(place + "/disk/inner_radius", "is not smaller than the radius");
     }
     void check_shape(const geometry::Plane&, const std::string&) {}
+    template <class Kind>
+        requires requires(const Kind& shape) { shape.patches(); }
+    void check_shape(const Kind& shape, const std::string& place) {
+        const auto patches = shape.patches();
+        if (patches) return;
+        const std::string name{geometry::shape_names[geometry::Shape(shape).index()]};
+        for (const Problem& problem : patches.error().problems) add(place + "/" + name + "/" + problem.place, problem.reason, problem.hint);
+    }
 
     void check_shape(const geometry::Polygon& polygon, const std::string& place) {
         const std::string here = place + "/polygon/loops";

@@ -46,8 +46,8 @@ public:
         while (!pending.empty()) {
             Net box = std::move(pending.back());
             pending.pop_back();
-            if (one_sided(box.f) || one_sided(box.g)) continue;
-            if (pending.size() > 4000 || found.size() > 4000) {
+            if (one_sided(box.f) || one_sided(box.g) || beside(box)) continue;
+            if (pending.size() > 2000 || found.size() > 200) {
                 hopeless_ = true;
                 return {};
             }
@@ -111,6 +111,16 @@ private:
         bool positive = true, negative = true;
         for (const Real x : values) positive = positive && x > 0, negative = negative && x < 0;
         return positive || negative;
+    }
+    // Whether a combination of f and g is one-sided: those that are nearly the distances in u and v.
+    bool beside(const Net& box) const {
+        const std::size_t last = box.f.size() - 1, row = static_cast<std::size_t>(q_), column = last - row;
+        const auto slope = [](const std::vector<Real>& c, std::size_t a, std::size_t b, std::size_t d, std::size_t e) { return c[a] - c[b] + c[d] - c[e]; };
+        const Real fu = slope(box.f, column, 0, last, row), fv = slope(box.f, row, 0, last, column);
+        const Real gu = slope(box.g, column, 0, last, row), gv = slope(box.g, row, 0, last, column);
+        std::vector<Real> a, b;
+        for (std::size_t k = 0; k <= last; ++k) a.push_back(gv * box.f[k] - fv * box.g[k]), b.push_back(fu * box.g[k] - gu * box.f[k]);
+        return one_sided(a) || one_sided(b);
     }
     void cut(Net& net, Net& behind, bool along_u, Real s) const {
         for (auto values : {&Net::f, &Net::g}) {
@@ -193,7 +203,7 @@ private:
         Real grow_u = 4 * finest + (root.u1 - root.u0), grow_v = 4 * finest + (root.v1 - root.v0);
         for (Real least = 0; grow_u < 0.1L && grow_v < 0.1L; grow_u *= 4, grow_v *= 4) {
             const OracleRoot box{root.u0 - grow_u, root.u1 + grow_u, root.v0 - grow_v, root.v1 + grow_v, HUGE_VALL, -HUGE_VALL, 0, root.blurred};
-            constexpr int side = 32;
+            constexpr int side = 64;
             Real turn = 0, f0 = 0, g0 = 0, t0 = HUGE_VALL, t1 = -HUGE_VALL;
             least = HUGE_VALL;
             for (int k = 0; k <= 4 * side; ++k) {
@@ -207,7 +217,11 @@ private:
                 const Real t = (x * ray.direction.x + y * ray.direction.y + z * ray.direction.z) / dd;
                 t0 = std::min(t0, t), t1 = std::max(t1, t);
                 least = std::min(least, std::hypot(f, g));
-                if (k > 0) turn += std::atan2(f0 * g - g0 * f, f0 * f + g0 * g);
+                if (k > 0) {
+                    const Real step = std::atan2(f0 * g - g0 * f, f0 * f + g0 * g);
+                    turn += step;
+                    if (std::abs(step) > 1) least = 0;  // it may come nearer between the two
+                }
                 f0 = f, g0 = g;
             }
             root.t0 = t0, root.t1 = t1;
