@@ -173,7 +173,9 @@ void add_patches(const std::string& name, const std::shared_ptr<Bench>& bench) {
 // The teapot without its floor.
 scene::Scene teapot() {
     scene::Scene scene = load("teapot.json");
-    scene.roots.erase(scene.roots.begin());
+    for (scene::Node& node : scene.nodes) node.visible = node.name != "floor";
+    scene.camera->target = {0, 1.6, 0};
+    scene.camera->field_of_view = 0.52;
     return scene;
 }
 

@@ -6,18 +6,20 @@
 // of (u, v) that both vanish where the ray meets the surface. On a box of parameters, scaled to [0, 1]^2:
 //  1. f or g has coefficients of one sign only: no root.
 //  2. (a, b) = the inverse of the mean Jacobian times (f, g), near to (u - u*, v - v*): exclusion as before, now by a tight parallelogram.
-//  3. With |a_u - 1| <= k11, |a_v| <= k12, |b_u| <= k21, |b_v - 1| <= k22 from the coefficients of the derivatives, and k11 + k12 and
-//     k21 + k22 below 1, (a, b) is one to one: there is one root at most, and Newton's method, kept inside the box, finds it or ends at the border.
-//     There, at u = 0 say, a root in the box would need a <= |b| k12 / (1 - k22): from 0 = a + a_u du + a_v dv, 0 = b + b_u du + b_v dv with
-//     du >= 0. If that does not hold there is none.
+//  3. With a_u >= l11 > 0, |a_v| <= k12, |b_u| <= k21, b_v >= l22 > 0 from the coefficients of the derivatives, and l11 l22 > k12 k21, (a, b) is
+//     one to one: between two points it changes by a matrix of means of these, whose determinant is positive. So there is one root at most, and
+//     Newton's method, kept inside the box, finds it or ends at the border. There, at u = 0 say, a root in the box would need
+//     a <= |b| k12 / l22: from 0 = a + a_u du + a_v dv, 0 = b + b_u du + b_v dv with du >= 0. If that does not hold there is none.
 //  4. What is still undecided is halved, and halves are tried again.
 // `delta` bounds the rounding of coefficients, so all this holds for the computed numbers too, and boxes overlap by more than rounding can move roots.
 //
-// The functions are written for T = double and for T = Lanes (one ray a lane) alike, which gives the same bits.
+// The functions are written for T = double and for T = Lanes (one ray a lane) alike, which gives the same bits. For one ray and degrees that
+// are known the coefficients themselves are the lanes where only their largest or least matter.
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "geometry/bernstein.h"
 #include "geometry/ray_view.h"
@@ -42,9 +44,22 @@ std::uint8_t patch_kernel_of(int degree_u, int degree_v);
 // Degrees known to the compiler, or not.
 template <int P, int Q>
 struct FixedDegrees {
-    static constexpr int u = P, v = Q, count = (P + 1) * (Q + 1), room = count, room_u = P + 1, room_v = Q + 1;
+    static constexpr int u = P, v = Q, count = (P + 1) * (Q + 1), room_u = P + 1, room_v = Q + 1;
+    static constexpr int blocks = (count + lane_count - 1) / lane_count;  // of coefficients
+    static constexpr int room = (blocks + 1) * lane_count;                // a block more may be read
+
+    // The coefficients k of a block that have a neighbour in the next row, or in the next column, as bits.
+    static constexpr unsigned followed(int block, bool along_u) {
+        unsigned bits = 0;
+        for (int i = 0; i < lane_count; ++i) {
+            const int k = block * lane_count + i;
+            if (k < count && (along_u ? k < P * (Q + 1) : k % (Q + 1) < Q)) bits |= 1u << i;
+        }
+        return bits;
+    }
 };
 struct AnyDegrees {
+    static constexpr int blocks = 0;
     static constexpr int room_u = max_patch_degree + 1, room_v = room_u, room = room_u * room_v;
     int u, v, count;
 };
@@ -83,6 +98,12 @@ struct PatchRay {
     auto usable() const { return (speed > 0.0) & (speed < HUGE_VAL) & (delta < HUGE_VAL); }
 };
 
+inline Lanes load_lanes(const double* from) {
+    Lanes lanes;
+    __builtin_memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+
 template <class D, class T>
 void project(D degrees, const LeafPoints& points, const PatchRay<T>& ray, T* f, T* g) {
     const auto &o = ray.origin, &n = ray.across, &m = ray.up;
@@ -101,9 +122,25 @@ void project(D degrees, const LeafPoints& points, const PatchRay<T>& ray, T* f, 
     }
 }
 
+// The last block filled up, so that it can be looked at whole.
+template <class D>
+void pad(D degrees, double* values) {
+    for (int k = degrees.count; k < D::blocks * lane_count; ++k) values[k] = values[0];
+}
+template <class D>
+void pad(D, Lanes*) {}
+
 // Whether all values are above `delta` or all are below -delta.
 template <class D, class T>
-auto one_sided(D degrees, const T* values, const T& delta) {
+decltype(T{} < T{}) one_sided(D degrees, const T* values, const T& delta) {
+    if constexpr (std::is_same_v<T, double> && D::blocks > 0) {
+        unsigned above = 0xff, below = 0xff;
+        for (int block = 0; block < D::blocks; ++block) {
+            const Lanes here = load_lanes(values + block * lane_count);
+            above &= bits_of(here > delta), below &= bits_of(here < -delta);
+        }
+        return above == 0xff || below == 0xff;
+    }
     T least = values[0], most = values[0];
     for (int k = 1; k < degrees.count; ++k) least = lesser(values[k], least), most = greater(values[k], most);
     return (least > delta) | (most < -delta);
@@ -117,16 +154,73 @@ struct ValueAndSlopes {
 // Of the polynomial with these coefficients, given the Bernstein polynomials.
 template <class D, class T>
 ValueAndSlopes<T> evaluate(D degrees, const T* coefficients, const T* bu, const T* su, const T* bv, const T* sv) {
-    ValueAndSlopes<T> sum{};
-    for (int i = 0; i <= degrees.u; ++i) {
-        const T* row = coefficients + i * (degrees.v + 1);
-        T value = row[0] * bv[0], slope = row[0] * sv[0];
-        for (int j = 1; j <= degrees.v; ++j) value = fused_multiply_add(row[j], bv[j], value), slope = fused_multiply_add(row[j], sv[j], slope);
-        sum.value = fused_multiply_add(value, bu[i], sum.value);
-        sum.u = fused_multiply_add(value, su[i], sum.u);
-        sum.v = fused_multiply_add(slope, bu[i], sum.v);
+    const int columns = degrees.v + 1;
+    T value[D::room_v], slope[D::room_v];
+    for (int j = 0; j < columns; ++j) value[j] = coefficients[j] * bu[0], slope[j] = coefficients[j] * su[0];
+    for (int i = 1; i <= degrees.u; ++i) {
+        const T* row = coefficients + i * columns;
+        for (int j = 0; j < columns; ++j) value[j] = fused_multiply_add(row[j], bu[i], value[j]), slope[j] = fused_multiply_add(row[j], su[i], slope[j]);
+    }
+    ValueAndSlopes<T> sum{value[0] * bv[0], slope[0] * bv[0], value[0] * sv[0]};
+    for (int j = 1; j < columns; ++j) {
+        sum.value = fused_multiply_add(value[j], bv[j], sum.value);
+        sum.u = fused_multiply_add(slope[j], bv[j], sum.u);
+        sum.v = fused_multiply_add(value[j], sv[j], sum.v);
     }
     return sum;
+}
+
+// How much (a, b) may bend: lower bounds of a_u and b_v, upper bounds of |a_v| and |b_u|.
+template <class T>
+struct Spread {
+    T l11 = T{} + HUGE_VAL, k12{}, k21{}, l22 = T{} + HUGE_VAL;
+};
+
+template <class D, class T>
+Spread<T> spread_of(D degrees, const T* a, const T* b) {
+    const int columns = degrees.v + 1;
+    Spread<T> k;
+    if constexpr (std::is_same_v<T, double> && D::blocks > 0) {
+        constexpr Lanes none{};
+        Spread<Lanes> most;
+        for (int block = 0; block < D::blocks; ++block) {
+            const int first = block * lane_count;
+            const Lanes a0 = load_lanes(a + first), b0 = load_lanes(b + first);
+            if (const unsigned lanes = D::followed(block, true)) {
+                const Lanes da = load_lanes(a + first + columns) - a0, db = load_lanes(b + first + columns) - b0;
+                most.l11 = lesser(blend(lanes, da, none + HUGE_VAL), most.l11);
+                most.k21 = greater(blend(lanes, absolute(db), none), most.k21);
+            }
+            const unsigned lanes = D::followed(block, false);
+            const Lanes da = load_lanes(a + first + 1) - a0, db = load_lanes(b + first + 1) - b0;
+            most.k12 = greater(blend(lanes, absolute(da), none), most.k12);
+            most.l22 = lesser(blend(lanes, db, none + HUGE_VAL), most.l22);
+        }
+        k = {least(most.l11, 0xff), greatest(most.k12, 0xff), greatest(most.k21, 0xff), least(most.l22, 0xff)};
+    } else {
+        for (int i = 0; i < degrees.u; ++i) {
+            for (int j = i * columns; j < (i + 1) * columns; ++j) {
+                k.l11 = lesser(a[j + columns] - a[j], k.l11);
+                k.k21 = greater(absolute(b[j + columns] - b[j]), k.k21);
+            }
+        }
+        for (int i = 0; i <= degrees.u; ++i) {
+            for (int j = i * columns; j < i * columns + degrees.v; ++j) {
+                k.k12 = greater(absolute(a[j + 1] - a[j]), k.k12);
+                k.l22 = lesser(b[j + 1] - b[j], k.l22);
+            }
+        }
+    }
+    k.l11 *= degrees.u, k.k21 *= degrees.u, k.k12 *= degrees.v, k.l22 *= degrees.v;
+    return k;
+}
+
+// Of the control points about the middle.
+template <class D, class T>
+T middle_of(D degrees, const T* values) {
+    const int i = degrees.u / 2, j = degrees.v / 2, columns = degrees.v + 1, down = (degrees.u & 1) * columns, right = degrees.v & 1;
+    const T* from = values + i * columns + j;
+    return ((from[0] + from[right]) + (from[down] + from[down + right])) * 0.25;
 }
 
 template <class T>
@@ -140,7 +234,7 @@ struct Attempt {
 // Steps 1 to 3 for the box with the coefficients f, g. Lanes outside `wanted` are not tried.
 template <class D, class T>
 Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename Attempt<T>::Mask wanted) {
-    constexpr double certain = 0.95;  // below 1 by more than what the overlap of boxes can add
+    constexpr double certain = 0.9, least_slope = 0.02;  // apart from 1 and 0 by more than what the overlap of boxes can add
     Attempt<T> result{};
     result.excluded = one_sided(degrees, f, delta) | one_sided(degrees, g, delta);
     if (!any(wanted & (!result.excluded))) return result;
@@ -160,34 +254,19 @@ Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename A
         a[k] = fused_multiply_add(m11, f[k], m12 * g[k]);
         b[k] = fused_multiply_add(m21, f[k], m22 * g[k]);
     }
+    pad(degrees, a), pad(degrees, b);
     const T blur_a = delta * (2.0 * (absolute(m11) + absolute(m12))), blur_b = delta * (2.0 * (absolute(m21) + absolute(m22)));
     result.excluded |= one_sided(degrees, a, blur_a) | one_sided(degrees, b, blur_b);
     if (!any(wanted & (!result.excluded))) return result;
 
-    T k11{}, k12{}, k21{}, k22{}, sum_a{}, sum_b{};
-    for (int i = 0; i < degrees.u; ++i) {
-        for (int k = i * columns; k < (i + 1) * columns; ++k) {
-            k11 = greater(absolute(fused_multiply_add(a[k + columns] - a[k], T{} + degrees.u, T{} - 1.0)), k11);
-            k21 = greater(absolute(b[k + columns] - b[k]), k21);
-        }
-    }
-    for (int i = 0; i <= degrees.u; ++i) {
-        for (int k = i * columns; k < i * columns + degrees.v; ++k) {
-            k12 = greater(absolute(a[k + 1] - a[k]), k12);
-            k22 = greater(absolute(fused_multiply_add(b[k + 1] - b[k], T{} + degrees.v, T{} - 1.0)), k22);
-        }
-    }
-    k21 *= degrees.u, k12 *= degrees.v;
-    for (int k = 0; k < degrees.count; ++k) sum_a += a[k], sum_b += b[k];
-    const double mean = 1.0 / degrees.count;
-
+    const auto [l11, k12, k21, l22] = spread_of(degrees, a, b);
     constexpr double least_overlap = 1e-11, precise = 1e-8, too_blurred = 0.01;
-    auto active = wanted & (!result.excluded) & (k11 + k12 < certain) & (k21 + k22 < certain) & (blur_a < too_blurred) & (blur_b < too_blurred);
+    auto active = wanted & (!result.excluded) & (l11 > least_slope) & (l22 > least_slope) & (k12 * k21 < certain * (l11 * l22)) & (blur_a < too_blurred) & (blur_b < too_blurred);
     const T low_u = -least_overlap - 2.0 * blur_a, high_u = 1.0 - low_u, low_v = -least_overlap - 2.0 * blur_b, high_v = 1.0 - low_v;
     // Newton's convergence is quadratic: after a step below `precise` the error is below rounding, if the step itself was not rounded much.
     const auto sharp = (blur_a < 1e-6) & (blur_b < 1e-6);
-    const T lean_a = k12 / (1.0 - k22), lean_b = k21 / (1.0 - k11);
-    T u = lesser(greater(0.5 - sum_a * mean, low_u), high_u), v = lesser(greater(0.5 - sum_b * mean, low_v), high_v);
+    const T lean_a = k12 / l22, lean_b = k21 / l11;
+    T u = lesser(greater(0.5 - middle_of(degrees, a), low_u), high_u), v = lesser(greater(0.5 - middle_of(degrees, b), low_v), high_v);
     for (int step = 0; step < 10 && any(active); ++step) {
         T bu[D::room_u], su[D::room_u], bv[D::room_v], sv[D::room_v];
         bernstein(degrees.u, u, bu, su);
@@ -224,25 +303,20 @@ T parameter_at(D degrees, const LeafPoints& points, const PatchRay<T>& ray, cons
     T bu[D::room_u], su[D::room_u], bv[D::room_v], sv[D::room_v];
     bernstein(degrees.u, u, bu, su);
     bernstein(degrees.v, v, bv, sv);
-    Point3<T> sum{};
-    T weight{};
-    for (int i = 0; i <= degrees.u; ++i) {
-        const int k = i * (degrees.v + 1);
-        Point3<T> row{};
-        T row_weight{};
-        for (int j = 0; j <= degrees.v; ++j) {
-            row.x = fused_multiply_add(T{} + points.x[k + j], bv[j], row.x);
-            row.y = fused_multiply_add(T{} + points.y[k + j], bv[j], row.y);
-            row.z = fused_multiply_add(T{} + points.z[k + j], bv[j], row.z);
-            if (points.w) row_weight = fused_multiply_add(T{} + points.w[k + j], bv[j], row_weight);
+    const int columns = degrees.v + 1;
+    const auto sum_of = [&](const double* values) {
+        T row[D::room_v];
+        for (int j = 0; j < columns; ++j) row[j] = values[j] * bu[0];
+        for (int i = 1; i <= degrees.u; ++i) {
+            for (int j = 0; j < columns; ++j) row[j] = fused_multiply_add(T{} + values[i * columns + j], bu[i], row[j]);
         }
-        sum.x = fused_multiply_add(row.x, bu[i], sum.x);
-        sum.y = fused_multiply_add(row.y, bu[i], sum.y);
-        sum.z = fused_multiply_add(row.z, bu[i], sum.z);
-        if (points.w) weight = fused_multiply_add(row_weight, bu[i], weight);
-    }
+        T result = row[0] * bv[0];
+        for (int j = 1; j < columns; ++j) result = fused_multiply_add(row[j], bv[j], result);
+        return result;
+    };
+    Point3<T> sum{sum_of(points.x), sum_of(points.y), sum_of(points.z)};
     if (points.w) {
-        const T inverse = 1.0 / weight;
+        const T inverse = 1.0 / sum_of(points.w);
         sum.x *= inverse, sum.y *= inverse, sum.z *= inverse;
     }
     const auto &o = ray.origin, &d = ray.direction;

@@ -11,7 +11,7 @@
 namespace crescente::geometry {
 namespace {
 
-constexpr double normal_spread = 22 * pi / 180;  // from the mean: smaller makes more leaves, larger more boxes to halve for each ray
+constexpr double normal_spread = 18 * pi / 180;  // from the mean: smaller makes more leaves, larger more boxes to halve for each ray
 constexpr int max_halvings = 14;                 // of a patch, for the normals' sake
 constexpr int extra_halvings = 3;                // for that of an even parametrisation
 
@@ -64,6 +64,7 @@ struct Bend {
     Vec3 normal;           // mean; zero where there is none
     double cosine = 1;     // of the largest angle of a cell of the net to it
     Way way = Way::u;      // the one that bends more
+    Way uneven = Way::u;   // the one along which the partial derivatives change more, each compared to its length
 };
 
 Bend bend_of(const BezierPatch& piece, const std::vector<Vec3>& at) {
@@ -83,13 +84,18 @@ Bend bend_of(const BezierPatch& piece, const std::vector<Vec3>& at) {
             if (l > 1e-9 * size) bend.cosine = std::min(bend.cosine, dot(n, bend.normal) / l);
         }
     }
-    double along_u = 0, along_v = 0;
+    double along_u = 0, along_v = 0, twist = 0;
     for (int i = 0; i <= p; ++i) {
         for (int j = 0; j <= q; ++j) {
+            if (i >= 1 && j >= 1) twist = std::max(twist, length(point(i, j) - point(i - 1, j) - point(i, j - 1) + point(i - 1, j - 1)) * (p * q));
             if (i >= 2) along_u = std::max(along_u, length(point(i, j) - point(i - 1, j) * 2 + point(i - 2, j)) * (p * (p - 1)));
             if (j >= 2) along_v = std::max(along_v, length(point(i, j) - point(i, j - 1) * 2 + point(i, j - 2)) * (q * (q - 1)));
         }
     }
+    double long_u = 0, long_v = 0;
+    for (int i = 0; i <= p; ++i) long_v += length(point(i, q) - point(i, 0)) / (p + 1);
+    for (int j = 0; j <= q; ++j) long_u += length(point(p, j) - point(0, j)) / (q + 1);
+    bend.uneven = along_u / long_u + twist / long_v >= along_v / long_v + twist / long_u ? Way::u : Way::v;
     if (p == 1 && q == 1) {  // bends by twist alone
         along_u = length(point(1, 0) - point(0, 0)) + length(point(1, 1) - point(0, 1));
         along_v = length(point(0, 1) - point(0, 0)) + length(point(1, 1) - point(1, 0));
@@ -130,7 +136,7 @@ private:
         const Bend bend = bend_of(piece, at);
         const bool bent = bend.cosine < std::cos(normal_spread);
         if (halvings < max_halvings && (bent || (extra < extra_halvings && !even(piece, bend.normal)))) {
-            BezierPatch behind = cut_off(piece, bend.way, 0.5);
+            BezierPatch behind = cut_off(piece, bent ? bend.way : bend.uneven, 0.5);
             cut_piece(std::move(piece), halvings + 1, extra + !bent);
             cut_piece(std::move(behind), halvings + 1, extra + !bent);
             return;

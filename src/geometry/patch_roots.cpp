@@ -154,6 +154,7 @@ void copy(D degrees, const Box<D>& from, Box<D>& to) {
     to.u = from.u, to.v = from.v, to.size_u = from.size_u, to.size_v = from.size_v;
     std::copy(from.f, from.f + degrees.count, to.f);
     std::copy(from.g, from.g + degrees.count, to.g);
+    pad(degrees, to.f), pad(degrees, to.g);
 }
 
 // Tries what the first attempt left undecided.
@@ -181,6 +182,7 @@ void search(D degrees, const LeafPoints& points, const PatchRay<double>& ray, Bo
             const Way way = longer_way(degrees, box);
             halve(degrees, box.f, behind.f, way);
             halve(degrees, box.g, behind.g, way);
+            pad(degrees, box.f), pad(degrees, box.g), pad(degrees, behind.f), pad(degrees, behind.g);
             (way == Way::u ? box.size_u : box.size_v) *= 0.5;
             (way == Way::u ? behind.size_u : behind.size_v) *= 0.5;
             if (way == Way::u) behind.u += box.size_u;
@@ -204,6 +206,7 @@ int roots_in(D degrees, const LeafPoints& points, const PatchRay<double>& ray, c
     if (!ray.usable() || out.empty()) return 0;
     Box<D> box;
     project(degrees, points, ray, box.f, box.g);
+    pad(degrees, box.f), pad(degrees, box.g);
     const auto first = attempt<D, double>(degrees, box.f, box.g, ray.delta, true);
     if (first.excluded) return 0;
     if (first.found) {
