@@ -104,21 +104,26 @@ inline Lanes load_lanes(const double* from) {
     return lanes;
 }
 
+// Distances of the control points from the plane through the ray with this normal, times the weights.
 template <class D, class T>
-void project(D degrees, const LeafPoints& points, const PatchRay<T>& ray, T* f, T* g) {
-    const auto &o = ray.origin, &n = ray.across, &m = ray.up;
-    const T fo = -fused_multiply_add(n.x, o.x, fused_multiply_add(n.y, o.y, n.z * o.z));
-    const T go = -fused_multiply_add(m.x, o.x, fused_multiply_add(m.y, o.y, m.z * o.z));
+void project(D degrees, const LeafPoints& points, const Point3<T>& origin, const Point3<T>& normal, T* distances) {
+    const auto &o = origin, &n = normal;
+    const T to_plane = -fused_multiply_add(n.x, o.x, fused_multiply_add(n.y, o.y, n.z * o.z));
+    if constexpr (std::is_same_v<T, double> && D::blocks > 0) {
+        constexpr Lanes none{};
+        const Lanes nx = none + n.x, ny = none + n.y, nz = none + n.z;
+        for (int block = 0; block < D::blocks; ++block) {
+            const int k = block * lane_count;
+            const Lanes sum = fused_multiply_add(nx, load_lanes(points.x + k), fused_multiply_add(ny, load_lanes(points.y + k), nz * load_lanes(points.z + k)));
+            const Lanes distance = sum + (points.w ? to_plane * load_lanes(points.w + k) : none + to_plane);
+            __builtin_memcpy(distances + k, &distance, sizeof distance);
+        }
+        return;
+    }
     const T none = T{};
     for (int k = 0; k < degrees.count; ++k) {
-        const T x = none + points.x[k], y = none + points.y[k], z = none + points.z[k];
-        f[k] = fused_multiply_add(n.x, x, fused_multiply_add(n.y, y, n.z * z));
-        g[k] = fused_multiply_add(m.x, x, fused_multiply_add(m.y, y, m.z * z));
-    }
-    if (points.w) {
-        for (int k = 0; k < degrees.count; ++k) f[k] += fo * points.w[k], g[k] += go * points.w[k];
-    } else {
-        for (int k = 0; k < degrees.count; ++k) f[k] += fo, g[k] += go;
+        const T sum = fused_multiply_add(n.x, none + points.x[k], fused_multiply_add(n.y, none + points.y[k], n.z * (none + points.z[k])));
+        distances[k] = sum + (points.w ? to_plane * points.w[k] : to_plane);
     }
 }
 
@@ -250,11 +255,19 @@ Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename A
     const T m11 = gv * inverse, m12 = -fv * inverse, m21 = -gu * inverse, m22 = fu * inverse;
 
     T a[D::room], b[D::room];
-    for (int k = 0; k < degrees.count; ++k) {
-        a[k] = fused_multiply_add(m11, f[k], m12 * g[k]);
-        b[k] = fused_multiply_add(m21, f[k], m22 * g[k]);
+    if constexpr (std::is_same_v<T, double> && D::blocks > 0) {
+        for (int k = 0; k < D::blocks * lane_count; k += lane_count) {
+            const Lanes here_f = load_lanes(f + k), here_g = load_lanes(g + k);
+            const Lanes here_a = fused_multiply_add(Lanes{} + m11, here_f, m12 * here_g), here_b = fused_multiply_add(Lanes{} + m21, here_f, m22 * here_g);
+            __builtin_memcpy(a + k, &here_a, sizeof here_a);
+            __builtin_memcpy(b + k, &here_b, sizeof here_b);
+        }
+    } else {
+        for (int k = 0; k < degrees.count; ++k) {
+            a[k] = fused_multiply_add(m11, f[k], m12 * g[k]);
+            b[k] = fused_multiply_add(m21, f[k], m22 * g[k]);
+        }
     }
-    pad(degrees, a), pad(degrees, b);
     const T blur_a = delta * (2.0 * (absolute(m11) + absolute(m12))), blur_b = delta * (2.0 * (absolute(m21) + absolute(m22)));
     result.excluded |= one_sided(degrees, a, blur_a) | one_sided(degrees, b, blur_b);
     if (!any(wanted & (!result.excluded))) return result;

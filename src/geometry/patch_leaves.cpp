@@ -213,6 +213,7 @@ PatchLeaves::PatchLeaves(std::span<const BezierPatch> patches, double band) {
         if (band > 0) extend(patch, sides[i], band);
         cutter.cut_patch(patch, i);
     }
+    numbers_.insert(numbers_.end(), lane_count, 0.0);  // the last leaf is read in whole blocks too
     leaves_.shrink_to_fit();
     numbers_.shrink_to_fit();
 }

@@ -205,8 +205,11 @@ template <class D>
 int roots_in(D degrees, const LeafPoints& points, const PatchRay<double>& ray, const Ray& within, std::span<PatchRoot> out) {
     if (!ray.usable() || out.empty()) return 0;
     Box<D> box;
-    project(degrees, points, ray, box.f, box.g);
-    pad(degrees, box.f), pad(degrees, box.g);
+    project(degrees, points, ray.origin, ray.across, box.f);
+    pad(degrees, box.f);
+    if (one_sided(degrees, box.f, ray.delta)) return 0;
+    project(degrees, points, ray.origin, ray.up, box.g);
+    pad(degrees, box.g);
     const auto first = attempt<D, double>(degrees, box.f, box.g, ray.delta, true);
     if (first.excluded) return 0;
     if (first.found) {
@@ -233,7 +236,8 @@ struct LaneAnswer {
 template <class D>
 LaneAnswer roots_in(D degrees, const LeafPoints& points, const PatchRay<Lanes>& ray, LaneMask wanted, const RayLanes& within, PatchRootLanes& out) {
     Lanes f[D::room], g[D::room];
-    project(degrees, points, ray, f, g);
+    project(degrees, points, ray.origin, ray.across, f);
+    project(degrees, points, ray.origin, ray.up, g);
     const LaneMask usable = ray.usable();
     const auto result = attempt<D, Lanes>(degrees, f, g, ray.delta, wanted & usable);
     const unsigned decided = bits_of((!usable) | result.excluded | result.found);
