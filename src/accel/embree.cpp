@@ -346,7 +346,7 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
     }
     if (const auto* brep = std::get_if<geometry::Brep>(instance.shape)) {
         constexpr int few = 2;  // rays, which are cheaper one by one
-        if (__builtin_popcount(active) <= few) return false;
+        if (__builtin_popcount(active) <= few || !instance.one_sided.empty()) return false;  // behind a crossing that is culled there may be another
         for (unsigned lanes = brep_lanes(query.packet_rays, active, instance, *brep, primitive.index, t); lanes; lanes &= lanes - 1) {
             const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
             visit(lane, Hit{t[lane], index, primitive.index});
@@ -357,7 +357,7 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
     const auto* sphere = std::get_if<geometry::Sphere>(instance.shape);
     if (!sphere) {
         const geometry::PatchLeaves* leaves = geometry::patch_leaves(*instance.shape);
-        if (!leaves || __builtin_popcount(active) < least_patch_rays) return false;
+        if (!leaves || __builtin_popcount(active) < least_patch_rays || !instance.one_sided.empty()) return false;
         for (unsigned lanes = patch_lanes(query.packet_rays, active, instance, *leaves, primitive.index, t); lanes; lanes &= lanes - 1) {
             const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
             visit(lane, Hit{t[lane], index, primitive.index});
