@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/bernstein.h"
 #include "geometry/brep.h"
 
 namespace crescente::geometry {
@@ -34,6 +35,15 @@ PatchSteps patch_steps(const BezierPatch& patch, const Frame* axis) {
     return {box, {0.5 * least_sine * least_u * per_u, 0.5 * least_sine * least_v * per_v}};
 }
 
+bool sound(const BezierPatch& patch) {
+    const int p = patch.degree_u, q = patch.degree_v;
+    if (p < 1 || q < 1 || p > max_patch_degree || q > max_patch_degree || patch.points.size() != std::size_t(p + 1) * (q + 1)) return false;
+    if (!std::isfinite(patch.u0) || !std::isfinite(patch.u1) || !std::isfinite(patch.v0) || !std::isfinite(patch.v1)) return false;
+    return std::all_of(patch.points.begin(), patch.points.end(), [](const ControlPoint& c) {
+        return c.weight > 0 && std::isfinite(c.weight) && is_finite(c.weighted) && is_finite(c.weighted / c.weight);
+    });
+}
+
 // Angle about the axis, from -pi to pi.
 double angle(const Frame& axis, Vec3 position) {
     const Vec3 p = position - axis.origin;
@@ -44,16 +54,10 @@ double angle(const Frame& axis, Vec3 position) {
 
 Expected<void> Brep::add_patches(const Face& face, const PatchSurface& surface) {
     if (surface.patches.empty()) return failure(ErrorKind::input, {"", "", "a spline surface without patches", ""});
-    double band = 0;
-    for (const Loop& loop : face.loops) {
-        for (const LoopEdge& edge : loop) band = std::max(band, edge.band);
-    }
-    if (!(band < 1e30)) return failure(ErrorKind::input, {"", "", "a band that is no length", ""});
-    Patches patches{surface, PatchLeaves(surface.patches, band)};
-    std::vector<bool> covered(surface.patches.size());
-    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) covered[patches.leaves.patch(leaf)] = true;
-    if (const auto bad = std::find(covered.begin(), covered.end(), false); bad != covered.end()) {
-        return failure(ErrorKind::input, {"", "patch " + std::to_string(bad - covered.begin()), "a degree out of range, a weight that is not positive or numbers that are not finite", ""});
+    for (std::size_t i = 0; i < surface.patches.size(); ++i) {
+        if (!sound(surface.patches[i])) {
+            return failure(ErrorKind::input, {"", "patch " + std::to_string(i), "a degree out of range, a weight that is not positive or numbers that are not finite", ""});
+        }
     }
     const Frame* axis = surface.revolved ? &*surface.revolved : nullptr;
     std::vector<PatchSteps> steps;
@@ -69,12 +73,17 @@ Expected<void> Brep::add_patches(const Face& face, const PatchSurface& surface) 
     auto trimming = Trimming::make(face, {axis ? 2 * pi : 0, 0}, least);
     if (!trimming) return tl::unexpected(trimming.error());
 
+    // Turned about an axis, u of the patches is not the face's.
+    const auto outside = [&](ParameterBox range) {
+        if (axis) range.u0 = trimming->reach().u0, range.u1 = trimming->reach().u1;
+        return trimming->all_outside(range);
+    };
+    Patches patches{surface, PatchLeaves(surface.patches, trimming->widest_band(), outside)};
     const auto index = static_cast<std::uint32_t>(faces_.size()), set = static_cast<std::uint32_t>(patches_.size());
     const double margin = 2 * trimming->widest_band();
     const std::size_t first = leaves_.size();
     for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) {
-        if (!axis && trimming->all_outside(patches.leaves.range(leaf))) continue;
-        Bounds box = patches.leaves.bounds(leaf);
+        const Bounds box = patches.leaves.bounds(leaf);
         const Vec3 grow = Vec3{1, 1, 1} * margin;
         leaves_.push_back({{box.lower - grow, box.upper + grow}, index, leaf});
     }

@@ -109,7 +109,7 @@ Bend bend_of(const BezierPatch& piece, const std::vector<Vec3>& at) {
 // Cuts patches into leaves.
 class LeafCutter {
 public:
-    explicit LeafCutter(PatchLeaves& leaves) : leaves_(leaves) {}
+    LeafCutter(PatchLeaves& leaves, const std::function<bool(const ParameterBox&)>& unwanted) : leaves_(leaves), unwanted_(unwanted) {}
 
     void cut_patch(const BezierPatch& patch, std::uint32_t index) {
         Bounds box;
@@ -131,6 +131,7 @@ public:
 
 private:
     void cut_piece(BezierPatch piece, int halvings, int extra) {
+        if (unwanted_ && unwanted_({std::min(piece.u0, piece.u1), std::max(piece.u0, piece.u1), std::min(piece.v0, piece.v1), std::max(piece.v0, piece.v1)})) return;
         std::vector<Vec3> at;
         for (const ControlPoint& c : piece.points) at.push_back(rational_ ? place(c) : c.weighted);
         const Bend bend = bend_of(piece, at);
@@ -197,14 +198,15 @@ private:
     }
 
     PatchLeaves& leaves_;
+    const std::function<bool(const ParameterBox&)>& unwanted_;
     Vec3 center_;
     std::uint32_t index_ = 0;
     double reach_ = 0, blur_reach_ = 0;
     bool rational_ = false;
 };
 
-PatchLeaves::PatchLeaves(std::span<const BezierPatch> patches, double band) {
-    LeafCutter cutter(*this);
+PatchLeaves::PatchLeaves(std::span<const BezierPatch> patches, double band, const std::function<bool(const ParameterBox&)>& unwanted) {
+    LeafCutter cutter(*this, unwanted);
     std::vector<std::array<bool, 4>> sides(patches.size(), {false, false, false, false});
     if (band > 0) sides = free_borders(patches);
     for (std::uint32_t i = 0; i < patches.size(); ++i) {

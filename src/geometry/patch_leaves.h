@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,7 +45,8 @@ public:
 
     // Degrees from 1 to max_patch_degree, weights positive, all finite; a patch that is not so has no leaves. Borders that have no neighbour in the
     // set (nor are degenerate) are extended by the length `band`, at most by a fiftieth of the patch: parameters then exceed the patch's range.
-    explicit PatchLeaves(std::span<const BezierPatch> patches, double band = 0);
+    // Of what `unwanted` says true for no leaves are made: a surface is often larger than the face on it, and may be folded there.
+    explicit PatchLeaves(std::span<const BezierPatch> patches, double band = 0, const std::function<bool(const ParameterBox&)>& unwanted = {});
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(leaves_.size()); }
     std::uint32_t patch(std::uint32_t leaf) const { return leaves_[leaf].patch; }

@@ -151,8 +151,9 @@ void Trimming::make_grid(const LeastSteps& steps) {
     double aspect = step.u * width / (step.v * height);
     if (!(aspect > 0.25)) aspect = 0.25;
     if (aspect > 4) aspect = 4;
-    const double cells = rectangle ? 1 : std::clamp(24.0 * static_cast<double>(pieces_.size()), 64.0, 16384.0);
-    const int nu = std::max(1, static_cast<int>(std::sqrt(cells * aspect))), nv = std::max(1, static_cast<int>(std::sqrt(cells / aspect)));
+    const double cells = rectangle ? 1 : std::clamp(16.0 * static_cast<double>(pieces_.size()), 48.0, 16384.0);
+    // Rows take more memory than columns, by their lists of pieces.
+    const int nu = std::max(1, static_cast<int>(std::sqrt(2 * cells * aspect))), nv = std::max(1, static_cast<int>(std::sqrt(0.5 * cells / aspect)));
     columns_ = nu + 2, rows_ = nv + 2;
 
     // The border cells begin where the bands of edges along the border end, if these are narrow.
