@@ -10,7 +10,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// About how far a step in u and v goes at least on each patch, by the sides of its control net. Half of that is taken, since the net is not the surface.
+// About how far a step in u and v goes at least on each patch, by the sides of its control net. Half of that is taken, since the net is not the surface. A
+// net that is folded or shrinks to a point somewhere would make bands as wide as the patch, mostly where the face is not: there is a floor.
 struct PatchSteps {
     ParameterBox box;
     Point2 step;
@@ -19,17 +20,21 @@ struct PatchSteps {
 PatchSteps patch_steps(const BezierPatch& patch, const Frame* axis) {
     const auto place = [&](int i, int j) { return patch.at(i, j).weighted / patch.at(i, j).weight; };
     const double per_u = patch.degree_u / (patch.u1 - patch.u0), per_v = patch.degree_v / (patch.v1 - patch.v0);
-    double least_u = infinity, least_v = infinity, least_sine = 1, least_radius = infinity;
+    double least_u = infinity, least_v = infinity, least_sine = 1, least_radius = infinity, sum_u = 0, sum_v = 0;
     for (int i = 0; i <= patch.degree_u; ++i) {
         for (int j = 0; j <= patch.degree_v; ++j) {
             const Vec3 p = place(i, j);
             const Vec3 along_u = i < patch.degree_u ? place(i + 1, j) - p : p - place(i - 1, j), along_v = j < patch.degree_v ? place(i, j + 1) - p : p - place(i, j - 1);
             const double a = length(along_u), b = length(along_v);
             least_u = std::min(least_u, a), least_v = std::min(least_v, b);
+            sum_u += a, sum_v += b;
             if (a > 0 && b > 0) least_sine = std::min(least_sine, length(cross(along_u, along_v)) / (a * b));
             if (axis) least_radius = std::min(least_radius, length(cross(p - axis->origin, axis->z)));
         }
     }
+    constexpr double floor = 0.02, floor_of_sine = 0.2;
+    const double count = static_cast<double>(patch.points.size());
+    least_u = std::max(least_u, floor * sum_u / count), least_v = std::max(least_v, floor * sum_v / count), least_sine = std::max(least_sine, floor_of_sine);
     const ParameterBox box{std::min(patch.u0, patch.u1), std::max(patch.u0, patch.u1), std::min(patch.v0, patch.v1), std::max(patch.v0, patch.v1)};
     if (axis) return {box, {0.5 * least_radius, 0.5 * least_v * per_v}};
     return {box, {0.5 * least_sine * least_u * per_u, 0.5 * least_sine * least_v * per_v}};

@@ -77,11 +77,22 @@ Bend bend_of(const BezierPatch& piece, const std::vector<Vec3>& at) {
     const double size = length(bend.normal);
     if (!(size > 0)) return bend;
     bend.normal = bend.normal / size;
+    // How much the normal changes along u and along v: a long strip of degree 1 along u may bend by its twist alone.
+    std::vector<Vec3> normals(at.size());
+    double bend_u = 0, bend_v = 0;
+    const auto change = [&](int i, int j, int k, int l) {
+        const Vec3 &a = normals[static_cast<std::size_t>(i * columns + j)], &b = normals[static_cast<std::size_t>(k * columns + l)];
+        return dot(a, a) > 0 && dot(b, b) > 0 ? length(a - b) : 0;
+    };
     for (int i = 0; i <= p; ++i) {
         for (int j = 0; j <= q; ++j) {
             const Vec3 n = cross(point(std::min(i + 1, p), j) - point(std::max(i - 1, 0), j), point(i, std::min(j + 1, q)) - point(i, std::max(j - 1, 0)));
             const double l = length(n);
-            if (l > 1e-9 * size) bend.cosine = std::min(bend.cosine, dot(n, bend.normal) / l);
+            if (!(l > 1e-9 * size)) continue;
+            bend.cosine = std::min(bend.cosine, dot(n, bend.normal) / l);
+            normals[static_cast<std::size_t>(i * columns + j)] = n / l;
+            if (i > 0) bend_u = std::max(bend_u, p * change(i, j, i - 1, j));
+            if (j > 0) bend_v = std::max(bend_v, q * change(i, j, i, j - 1));
         }
     }
     double along_u = 0, along_v = 0, twist = 0;
@@ -96,11 +107,7 @@ Bend bend_of(const BezierPatch& piece, const std::vector<Vec3>& at) {
     for (int i = 0; i <= p; ++i) long_v += length(point(i, q) - point(i, 0)) / (p + 1);
     for (int j = 0; j <= q; ++j) long_u += length(point(p, j) - point(0, j)) / (q + 1);
     bend.uneven = along_u / long_u + twist / long_v >= along_v / long_v + twist / long_u ? Way::u : Way::v;
-    if (p == 1 && q == 1) {  // bends by twist alone
-        along_u = length(point(1, 0) - point(0, 0)) + length(point(1, 1) - point(0, 1));
-        along_v = length(point(0, 1) - point(0, 0)) + length(point(1, 1) - point(1, 0));
-    }
-    bend.way = along_u >= along_v ? Way::u : Way::v;
+    bend.way = bend_u != bend_v ? (bend_u > bend_v ? Way::u : Way::v) : (long_u >= long_v ? Way::u : Way::v);
     return bend;
 }
 
