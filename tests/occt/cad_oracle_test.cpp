@@ -1,0 +1,168 @@
+// Our faces against OpenCASCADE's own: rays at random, from outside and from inside, nearest hits by IntCurvesFace_ShapeIntersector. It manages a few
+// hundred to a few thousand rays a second, so ctest tries few; for all files with many:
+//   CRESCENTE_ORACLE_RAYS=2000 CRESCENTE_CAD_FILES=all build/release/bin/test_occt
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRep_Tool.hxx>
+#include <IntCurvesFace_ShapeIntersector.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <gp_Lin.hxx>
+
+#include "geometry/brep.h"
+#include "io/occt/document.h"
+#include "io/occt/edge_bands.h"
+#include "io/occt/parts.h"
+
+namespace crescente::io::occt {
+namespace {
+
+using geometry::Brep;
+using math::Bounds;
+using math::Vec3;
+using namespace math;
+
+std::filesystem::path asset(const std::string& name) { return std::filesystem::path(CRESCENTE_SHARED) / "assets" / "cad" / name; }
+
+struct Part {
+    TopoDS_Shape shape;
+    Brep brep;
+};
+
+std::vector<Part> parts_of(const std::filesystem::path& file) {
+    const auto document = read_document(file.string(), file.string(), [](double, const char*) {});
+    std::vector<Part> parts;
+    EXPECT_TRUE(document);
+    if (!document) return parts;
+    TDF_LabelSequence labels;
+    XCAFDoc_DocumentTool::ShapeTool(document->document->Main())->GetShapes(labels);
+    for (TDF_LabelSequence::Iterator each(labels); each.More(); each.Next()) {
+        if (!XCAFDoc_ShapeTool::IsSimpleShape(each.Value())) continue;
+        const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(each.Value());
+        TopTools_IndexedMapOfShape faces;
+        TopExp::MapShapes(shape, TopAbs_FACE, faces);
+        if (faces.IsEmpty()) continue;
+        CadModel model;
+        const std::vector<std::uint16_t> slots(static_cast<std::size_t>(faces.Extent()), 0);
+        const PartOptions options{0, file.string(), {}};
+        const CadPart part = make_part(shape, "part", faces, slots, options, model);
+        std::vector<geometry::FaceProblem> problems;
+        Brep brep(part.faces, problems);
+        for (const auto& problem : problems) ADD_FAILURE() << file << " face " << part.numbers[problem.face] << ": " << problem.reason;
+        parts.push_back({shape, std::move(brep)});
+    }
+    return parts;
+}
+
+std::optional<double> nearest(const Brep& brep, const geometry::Ray& ray) {
+    std::optional<double> best;
+    for (std::uint32_t part = 0; part < brep.parts(); ++part) {
+        const auto hit = brep.intersect(part, ray);
+        if (hit && (!best || hit->t < *best)) best = hit->t;
+    }
+    return best;
+}
+
+std::optional<double> nearest(IntCurvesFace_ShapeIntersector& oracle, const geometry::Ray& ray) {
+    const gp_Lin line(gp_Pnt(ray.origin.x, ray.origin.y, ray.origin.z), gp_Dir(ray.direction.x, ray.direction.y, ray.direction.z));
+    oracle.PerformNearest(line, 0, 1e100);
+    if (!oracle.IsDone() || oracle.NbPnt() == 0) return std::nullopt;
+    return oracle.WParameter(1);
+}
+
+// Whether the point is so near to an edge that the faces may be taken for going on, or for having ended.
+bool at_an_edge(const TopoDS_Shape& shape, const EdgeBands& bands, Vec3 p) {
+    const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(gp_Pnt(p.x, p.y, p.z));
+    TopTools_IndexedMapOfShape edges;
+    TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+    for (int i = 1; i <= edges.Extent(); ++i) {
+        if (BRep_Tool::Degenerated(TopoDS::Edge(edges(i)))) continue;
+        const BRepExtrema_DistShapeShape distance(vertex, edges(i));
+        if (distance.IsDone() && distance.Value() <= 3 * bands.band(TopoDS::Edge(edges(i)))) return true;
+    }
+    return false;
+}
+
+struct Tally {
+    int rays = 0, hits = 0, at_edges = 0, wrong = 0;
+    double worst = 0;  // of the distances where both hit the same, relative to the diagonal
+};
+
+void compare(const Part& part, int rays, std::mt19937_64& random, Tally& tally) {
+    const Bounds box = part.brep.bounds();
+    const EdgeBands bands(part.shape);
+    const double diagonal = length(box.upper - box.lower);
+    IntCurvesFace_ShapeIntersector oracle;
+    oracle.Load(part.shape, 1e-7);
+    std::uniform_real_distribution<double> share(0, 1);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < rays; ++i) {
+        const Vec3 extent = box.upper - box.lower;
+        const Vec3 target = box.lower + Vec3{extent.x * share(random), extent.y * share(random), extent.z * share(random)};
+        const Vec3 direction = normalize(Vec3{normal(random), normal(random), normal(random)});
+        const bool from_inside = i % 4 == 0;  // of the box
+        const geometry::Ray ray{from_inside ? target : target - direction * diagonal, direction};
+        const auto ours = nearest(part.brep, ray), theirs = nearest(oracle, ray);
+        ++tally.rays;
+        tally.hits += ours.has_value();
+        if (!ours && !theirs) continue;
+        constexpr double same = 1e-6;
+        if (ours && theirs && std::abs(*ours - *theirs) <= same * diagonal) {
+            tally.worst = std::max(tally.worst, std::abs(*ours - *theirs) / diagonal);
+            continue;
+        }
+        bool excused = false;
+        for (const auto& t : {ours, theirs}) excused = excused || (t && at_an_edge(part.shape, bands, ray.at(*t)));
+        if (excused) {
+            ++tally.at_edges;
+            continue;
+        }
+        ++tally.wrong;
+        ADD_FAILURE() << "ours " << (ours ? std::to_string(*ours) : "missed") << ", theirs " << (theirs ? std::to_string(*theirs) : "missed") << ", diagonal "
+                      << diagonal << ", origin " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z << ", direction " << direction.x << ' '
+                      << direction.y << ' ' << direction.z;
+    }
+}
+
+TEST(CadOracle, NearestHitsAreOpenCascades) {
+    if (!std::filesystem::exists(asset("07_io1-cm-214.stp"))) GTEST_SKIP() << "the shared CAD assets are not here";
+    const char* which = std::getenv("CRESCENTE_CAD_FILES");
+    const char* count = std::getenv("CRESCENTE_ORACLE_RAYS");
+    const int rays = count ? std::max(1, std::atoi(count)) : 300;
+    std::vector<std::string> files = {"02_as1_pe_203.stp", "03_as1_pe_203.igs", "06_dm1-id-214.stp", "07_io1-cm-214.stp", "08_screw.step",
+                                      "12_Motor-c.brep",   "16_shell1.brep",    "21_NIST_MBE_PMI_11.stp", "27_Valve_Mini_Pentode.step"};
+    if (which && std::string(which) == "all") {
+        files.clear();
+        for (const auto& each : std::filesystem::directory_iterator(asset(""))) files.push_back(each.path().filename().string());
+        std::sort(files.begin(), files.end());
+    } else if (which) {
+        files = {which};
+    }
+    for (const std::string& file : files) {
+        SCOPED_TRACE(file);
+        std::mt19937_64 random(7);
+        Tally tally;
+        const auto parts = parts_of(asset(file));
+        for (const Part& part : parts) compare(part, std::max(1, rays / static_cast<int>(parts.size())), random, tally);
+        std::printf("%-34s %6d rays, %6d hit, %3d at edges, %3d wrong, worst %.1e of the diagonal\n", file.c_str(), tally.rays, tally.hits, tally.at_edges,
+                    tally.wrong, tally.worst);
+        std::fflush(stdout);
+        EXPECT_EQ(tally.wrong, 0);
+        EXPECT_GT(tally.hits, 0);
+        EXPECT_LE(tally.at_edges, 2 + tally.rays / 100);
+    }
+}
+
+}  // namespace
+}  // namespace crescente::io::occt
