@@ -74,11 +74,37 @@ std::optional<double> nearest(const Brep& brep, const geometry::Ray& ray) {
     return best;
 }
 
-std::optional<double> nearest(IntCurvesFace_ShapeIntersector& oracle, const geometry::Ray& ray) {
+// All that the oracle finds, in order.
+struct OracleHits {
+    std::vector<double> t;
+    bool first_on_boundary = false;  // it cannot tell whether the nearest is on the face
+};
+
+OracleHits hits_of(IntCurvesFace_ShapeIntersector& oracle, const geometry::Ray& ray) {
     const gp_Lin line(gp_Pnt(ray.origin.x, ray.origin.y, ray.origin.z), gp_Dir(ray.direction.x, ray.direction.y, ray.direction.z));
-    oracle.PerformNearest(line, 0, 1e100);
-    if (!oracle.IsDone() || oracle.NbPnt() == 0) return std::nullopt;
-    return oracle.WParameter(1);
+    oracle.Perform(line, 0, 1e100);
+    OracleHits hits;
+    if (!oracle.IsDone() || oracle.NbPnt() == 0) return hits;
+    oracle.SortResult();
+    for (int i = 1; i <= oracle.NbPnt(); ++i) hits.t.push_back(oracle.WParameter(i));
+    hits.first_on_boundary = oracle.State(1) == TopAbs_ON;
+    return hits;
+}
+
+// A ray that comes from outside crosses the faces of a closed solid an even number of times. True where we say so and the oracle does not, though all
+// that it found we found too: then it is the oracle that missed one.
+bool oracle_missed_one(const Part& part, const EdgeBands& bands, const geometry::Ray& ray, const OracleHits& theirs, double same) {
+    if (bands.unmatched() > 0 || theirs.t.size() % 2 == 0) return false;
+    std::vector<double> ours;
+    for (std::uint32_t leaf = 0; leaf < part.brep.parts(); ++leaf) {
+        geometry::Ray rest = ray;
+        while (const auto hit = part.brep.intersect(leaf, rest)) {
+            ours.push_back(hit->t);
+            rest.t_min = hit->t + same;
+        }
+    }
+    const auto found = [&](double t) { return std::any_of(ours.begin(), ours.end(), [&](double one) { return std::abs(one - t) <= same; }); };
+    return ours.size() == theirs.t.size() + 1 && std::all_of(theirs.t.begin(), theirs.t.end(), found);
 }
 
 // Whether the point is so near to an edge that the faces may be taken for going on, or for having ended.
@@ -95,7 +121,7 @@ bool at_an_edge(const TopoDS_Shape& shape, const EdgeBands& bands, Vec3 p) {
 }
 
 struct Tally {
-    int rays = 0, hits = 0, at_edges = 0, wrong = 0;
+    int rays = 0, hits = 0, at_edges = 0, missed_by_oracle = 0, wrong = 0;
     double worst = 0;  // of the distances where both hit the same, relative to the diagonal
 };
 
@@ -113,7 +139,9 @@ void compare(const Part& part, int rays, std::mt19937_64& random, Tally& tally) 
         const Vec3 direction = normalize(Vec3{normal(random), normal(random), normal(random)});
         const bool from_inside = i % 4 == 0;  // of the box
         const geometry::Ray ray{from_inside ? target : target - direction * diagonal, direction};
-        const auto ours = nearest(part.brep, ray), theirs = nearest(oracle, ray);
+        const auto ours = nearest(part.brep, ray);
+        const OracleHits found = hits_of(oracle, ray);
+        const auto theirs = found.t.empty() ? std::nullopt : std::optional(found.t.front());
         ++tally.rays;
         tally.hits += ours.has_value();
         if (!ours && !theirs) continue;
@@ -122,10 +150,14 @@ void compare(const Part& part, int rays, std::mt19937_64& random, Tally& tally) 
             tally.worst = std::max(tally.worst, std::abs(*ours - *theirs) / diagonal);
             continue;
         }
-        bool excused = false;
+        bool excused = found.first_on_boundary;
         for (const auto& t : {ours, theirs}) excused = excused || (t && at_an_edge(part.shape, bands, ray.at(*t)));
         if (excused) {
             ++tally.at_edges;
+            continue;
+        }
+        if (!from_inside && oracle_missed_one(part, bands, ray, found, same * diagonal)) {
+            ++tally.missed_by_oracle;
             continue;
         }
         ++tally.wrong;
@@ -155,8 +187,8 @@ TEST(CadOracle, NearestHitsAreOpenCascades) {
         Tally tally;
         const auto parts = parts_of(asset(file));
         for (const Part& part : parts) compare(part, std::max(1, rays / static_cast<int>(parts.size())), random, tally);
-        std::printf("%-34s %6d rays, %6d hit, %3d at edges, %3d wrong, worst %.1e of the diagonal\n", file.c_str(), tally.rays, tally.hits, tally.at_edges,
-                    tally.wrong, tally.worst);
+        std::printf("%-34s %6d rays, %6d hit, %3d at edges, %3d missed by the oracle, %3d wrong, worst %.1e of the diagonal\n", file.c_str(), tally.rays, tally.hits, tally.at_edges,
+                    tally.missed_by_oracle, tally.wrong, tally.worst);
         std::fflush(stdout);
         EXPECT_EQ(tally.wrong, 0);
         EXPECT_GT(tally.hits, 0);
