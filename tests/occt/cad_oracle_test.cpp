@@ -65,9 +65,21 @@ std::vector<Part> parts_of(const std::filesystem::path& file) {
     return parts;
 }
 
+// Whether the line of the ray passes the box.
+bool meets(const Bounds& box, const geometry::Ray& ray) {
+    double from = ray.t_min, to = ray.t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.lower[axis] - ray.origin[axis]) / ray.direction[axis], b = (box.upper[axis] - ray.origin[axis]) / ray.direction[axis];
+        from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
+    }
+    constexpr double rounding = 1e-9;
+    return from <= to + rounding * std::abs(to);
+}
+
 std::optional<double> nearest(const Brep& brep, const geometry::Ray& ray) {
     std::optional<double> best;
     for (std::uint32_t part = 0; part < brep.parts(); ++part) {
+        if (!meets(brep.part_bounds(part), ray)) continue;
         const auto hit = brep.intersect(part, ray);
         if (hit && (!best || hit->t < *best)) best = hit->t;
     }
