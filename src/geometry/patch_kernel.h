@@ -64,6 +64,28 @@ struct AnyDegrees {
     int u, v, count;
 };
 
+// Calls `call` with the degrees of a kernel. Those that have kernels of their own, by number; 0: any.
+template <class Visit>
+auto visit_degrees(std::uint8_t kernel, int degree_u, int degree_v, Visit&& call) {
+    switch (kernel) {
+        case 1: return call(FixedDegrees<1, 1>{});
+        case 2: return call(FixedDegrees<1, 2>{});
+        case 3: return call(FixedDegrees<1, 3>{});
+        case 4: return call(FixedDegrees<2, 1>{});
+        case 5: return call(FixedDegrees<2, 2>{});
+        case 6: return call(FixedDegrees<2, 3>{});
+        case 7: return call(FixedDegrees<3, 1>{});
+        case 8: return call(FixedDegrees<3, 2>{});
+        case 9: return call(FixedDegrees<3, 3>{});
+        case 10: return call(FixedDegrees<1, 5>{});
+        case 11: return call(FixedDegrees<5, 1>{});
+        case 12: return call(FixedDegrees<3, 5>{});
+        case 13: return call(FixedDegrees<5, 3>{});
+        case 14: return call(FixedDegrees<5, 5>{});
+    }
+    return call(AnyDegrees{degree_u, degree_v, (degree_u + 1) * (degree_v + 1)});
+}
+
 // Control points about the leaf's center, by component.
 struct LeafPoints {
     const double *x, *y, *z, *w;  // w: null for weights of 1
@@ -159,6 +181,7 @@ struct ValueAndSlopes {
 // Of the polynomial with these coefficients, given the Bernstein polynomials.
 template <class D, class T>
 ValueAndSlopes<T> evaluate(D degrees, const T* coefficients, const T* bu, const T* su, const T* bv, const T* sv) {
+    if (degrees.u < 1 || degrees.v < 1) __builtin_unreachable();
     const int columns = degrees.v + 1;
     T value[D::room_v], slope[D::room_v];
     for (int j = 0; j < columns; ++j) value[j] = coefficients[j] * bu[0], slope[j] = coefficients[j] * su[0];
@@ -313,6 +336,7 @@ Attempt<T> attempt(D degrees, const T* f, const T* g, const T& delta, typename A
 // The ray's parameter at (u, v) of the leaf's [0, 1]^2.
 template <class D, class T>
 T parameter_at(D degrees, const LeafPoints& points, const PatchRay<T>& ray, const T& u, const T& v) {
+    if (degrees.u < 1 || degrees.v < 1) __builtin_unreachable();
     T bu[D::room_u], su[D::room_u], bv[D::room_v], sv[D::room_v];
     bernstein(degrees.u, u, bu, su);
     bernstein(degrees.v, v, bv, sv);

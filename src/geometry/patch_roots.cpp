@@ -254,32 +254,11 @@ PatchRay<T> patch_ray(const Point3<T>& origin, const Point3<T>& direction, Vec3 
 
 }  // namespace
 
-// The degrees that have kernels of their own, by number; 0: any.
+// What sees into leaves.
 struct PatchKernels {
-    template <class Visit>
-    static auto visit(std::uint8_t kernel, int degree_u, int degree_v, Visit&& call) {
-        switch (kernel) {
-            case 1: return call(FixedDegrees<1, 1>{});
-            case 2: return call(FixedDegrees<1, 2>{});
-            case 3: return call(FixedDegrees<1, 3>{});
-            case 4: return call(FixedDegrees<2, 1>{});
-            case 5: return call(FixedDegrees<2, 2>{});
-            case 6: return call(FixedDegrees<2, 3>{});
-            case 7: return call(FixedDegrees<3, 1>{});
-            case 8: return call(FixedDegrees<3, 2>{});
-            case 9: return call(FixedDegrees<3, 3>{});
-            case 10: return call(FixedDegrees<1, 5>{});
-            case 11: return call(FixedDegrees<5, 1>{});
-            case 12: return call(FixedDegrees<3, 5>{});
-            case 13: return call(FixedDegrees<5, 3>{});
-            case 14: return call(FixedDegrees<5, 5>{});
-        }
-        return call(AnyDegrees{degree_u, degree_v, (degree_u + 1) * (degree_v + 1)});
-    }
-
     static std::uint8_t kernel_of(int degree_u, int degree_v) {
         for (std::uint8_t kernel = 1; kernel <= 14; ++kernel) {
-            if (visit(kernel, 0, 0, [=](auto degrees) { return degrees.u == degree_u && degrees.v == degree_v; })) return kernel;
+            if (visit_degrees(kernel, 0, 0, [=](auto degrees) { return degrees.u == degree_u && degrees.v == degree_v; })) return kernel;
         }
         return 0;
     }
@@ -294,7 +273,7 @@ struct PatchKernels {
         const LeafPoints control = points(leaves, leaf);
         const auto from = patch_ray<double>({ray.origin.x, ray.origin.y, ray.origin.z}, {ray.direction.x, ray.direction.y, ray.direction.z}, leaf.center,
                                             leaf.blur_reach);
-        const int count = visit(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return roots_in(degrees, control, from, ray, out); });
+        const int count = visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return roots_in(degrees, control, from, ray, out); });
         for (int i = 0; i < count; ++i) {
             out[i].u = leaf.u0 + out[i].u * (leaf.u1 - leaf.u0);
             out[i].v = leaf.v0 + out[i].v * (leaf.v1 - leaf.v0);
@@ -305,7 +284,7 @@ struct PatchKernels {
     static LaneAnswer roots(const PatchLeaves& leaves, const PatchLeaves::Leaf& leaf, const RayLanes& rays, LaneMask wanted, PatchRootLanes& out) {
         const LeafPoints control = points(leaves, leaf);
         const auto from = patch_ray<Lanes>(rays.origin, rays.direction, leaf.center, leaf.blur_reach);
-        const LaneAnswer answer = visit(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) -> LaneAnswer {
+        const LaneAnswer answer = visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) -> LaneAnswer {
             if constexpr (std::is_same_v<decltype(degrees), AnyDegrees>) return {0, 0};
             else return roots_in(degrees, control, from, wanted, rays, out);
         });

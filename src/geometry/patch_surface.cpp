@@ -14,10 +14,26 @@ struct Jet {
     V at{}, u{}, v{}, uu{}, uv{}, vv{};
 };
 
-// All derivatives are by the leaf's own parameters, from 0 to 1.
-struct LeafJet {
-    Jet<Vec3> position;
+// Position and first derivatives, by the leaf's own parameters from 0 to 1.
+struct Tangents {
+    Vec3 at, u, v;
 };
+
+template <class D>
+Tangents tangents_at(D degrees, const LeafPoints& points, double s, double t) {
+    double bu[D::room_u], su[D::room_u], bv[D::room_v], sv[D::room_v];
+    bernstein(degrees.u, s, bu, su);
+    bernstein(degrees.v, t, bv, sv);
+    const auto of = [&](const double* values) { return evaluate(degrees, values, bu, su, bv, sv); };
+    const auto x = of(points.x), y = of(points.y), z = of(points.z);
+    Tangents result{{x.value, y.value, z.value}, {x.u, y.u, z.u}, {x.v, y.v, z.v}};
+    if (!points.w) return result;
+    const auto w = of(points.w);
+    const double inverse = 1 / w.value;
+    result.at *= inverse;
+    result.u = (result.u - result.at * w.u) * inverse, result.v = (result.v - result.at * w.v) * inverse;
+    return result;
+}
 
 // B_i(s) and their first two derivatives.
 struct Basis {
@@ -76,15 +92,26 @@ PatchPoint PatchLeaves::at(std::uint32_t index, double u, double v) const {
     const LeafPoints control{x, x + count, x + 2 * count, leaf.rational ? x + 3 * count : nullptr};
     const double size_u = leaf.u1 - leaf.u0, size_v = leaf.v1 - leaf.v0;
     const double s = (u - leaf.u0) / size_u, t = (v - leaf.v0) / size_v;
-    const Jet<Vec3> jet = jet_at(control, leaf.degree_u, leaf.degree_v, s, t);
+    const Tangents tangents =
+        visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return tangents_at(degrees, control, s, t); });
     PatchPoint point;
-    point.position = leaf.center + jet.at;
-    point.along_u = jet.u / size_u, point.along_v = jet.v / size_v;
+    point.position = leaf.center + tangents.at;
+    point.along_u = tangents.u / size_u, point.along_v = tangents.v / size_v;
 
     // Unit normals: S_u x S_v divided by what it would be were the two perpendicular. Where one of the two vanishes the limit, from inside
     // the leaf, has its derivative instead.
     constexpr double degenerate = 1e-7;
     const double turn = size_u * size_v < 0 ? -1 : 1;
+    {
+        constexpr double regular = 1e-3;
+        const Vec3 across = cross(tangents.u, tangents.v);
+        const double uu = dot(tangents.u, tangents.u), vv = dot(tangents.v, tangents.v), size = dot(across, across);
+        if (size > regular * regular * uu * vv && uu > regular * regular * vv && vv > regular * regular * uu && size > 1e-280) {
+            point.normal = across * (turn / std::sqrt(size));
+            return point;
+        }
+    }
+    const Jet<Vec3> jet = jet_at(control, leaf.degree_u, leaf.degree_v, s, t);
     const double long_u = length(jet.u), long_v = length(jet.v);
     const double bend_u = length(jet.uu) + length(jet.uv), bend_v = length(jet.vv) + length(jet.uv);
     Vec3 normal = cross(jet.u, jet.v);
@@ -122,7 +149,8 @@ PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
     const double close = 16 * error(index);
     double s = 0.5, t = 0.5;
     for (int step = 0; step < 12; ++step) {
-        const Jet<Vec3> jet = jet_at(control, leaf.degree_u, leaf.degree_v, s, t);
+        const Tangents jet =
+            visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return tangents_at(degrees, control, s, t); });
         const Vec3 off = target - jet.at;
         // Least squares in the tangent plane.
         const double uu = dot(jet.u, jet.u), uv = dot(jet.u, jet.v), vv = dot(jet.v, jet.v), ou = dot(off, jet.u), ov = dot(off, jet.v);

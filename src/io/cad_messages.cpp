@@ -87,8 +87,7 @@ std::string pack_cad(const Expected<CadModel>& result) {
     bool good = result.has_value();
     value(writer, good);
     if (good) {
-        CadModel copy = *result;
-        model(writer, copy);
+        model(writer, const_cast<CadModel&>(*result));  // a writer changes nothing
     } else {
         Error copy = result.error();
         value(writer, copy.kind);

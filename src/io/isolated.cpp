@@ -11,6 +11,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <stdio_ext.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,6 +48,7 @@ bool write_all(int to, const char* bytes, std::size_t count) {
 
 [[noreturn]] void work_and_answer(const std::function<std::string(const TellProgress&)>& work, const IsolationLimits& limits, int to, int printed_to) {
     for (const int signal_number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT}) signal(signal_number, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // who started this process may be ended while it works
     __fpurge(stdout);  // what the other process has yet to print is its own matter
     dup2(printed_to, STDOUT_FILENO);
     dup2(printed_to, STDERR_FILENO);

@@ -132,7 +132,7 @@ inline geometry::Brep drilled_block(double band) {
 }
 
 inline geometry::Shape random_shape(Random& random) {
-    switch (random.below(8)) {
+    switch (random.below(10)) {
         case 0: return geometry::Sphere{random.uniform(0.3, 1)};
         case 1: {
             const Vec3 a = random.in_cube(), b = random.in_cube();
@@ -149,6 +149,24 @@ inline geometry::Shape random_shape(Random& random) {
             for (int i = 0; i < corners; ++i) outer.push_back({std::cos(2 * pi * i / corners), 0, std::sin(2 * pi * i / corners)});
             if (random.chance(0.5)) polygon.loops.push_back({{0.2, 0, 0}, {0, 0, 0.2}, {-0.2, 0, 0}});
             return polygon;
+        }
+        case 7: {
+            geometry::Bicubic patches;  // two sheets that may cross themselves and each other
+            patches.points.resize(2);
+            for (auto& points : patches.points) {
+                for (std::size_t i = 0; i < 16; ++i) {
+                    points[i] = Vec3{double(i / 4) / 1.5 - 1, double(i % 4) / 1.5 - 1, 0} * 0.7 + random.in_cube() * 0.5;
+                }
+            }
+            patches.prepare();
+            return patches;
+        }
+        case 8: {
+            geometry::Revolution turned;  // with poles
+            turned.profile.push_back({geometry::CurveKind::arc, 3, false, {{0, -1, 0}, {random.uniform(0.3, 1.2), 0.2, 0}, {0, 1, 0}}, {}, {}});
+            if (random.chance(0.5)) turned.directrix = {1, 0.5, 1, 0.7};
+            turned.prepare();
+            return turned;
         }
         default: {
             geometry::Mesh mesh;  // one free triangle

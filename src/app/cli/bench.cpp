@@ -7,6 +7,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/load.h"
+#include "app/cli/progress.h"
 #include "app/cli/quantities.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/stats_json.h"
@@ -157,7 +158,10 @@ Json table_json(const std::vector<Measured>& table) {
 ExitCode bench(const BenchOptions& options) {
     const auto request = understand(options.scene);
     if (!request) return fail(request.error());
-    auto loaded = load(*request);
+    auto loaded = [&] {
+        LoadingDisplay display(false);
+        return load(*request, read_options(request->cache, request->verbose, display));
+    }();
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
     const scene::Scene& scene = loaded->scene;

@@ -26,6 +26,7 @@ struct Command {
 Command add_render(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_bench(CLI::App& app);
+Command add_compare(CLI::App& app);
 Command add_formats(CLI::App& app);
 Command add_schema(CLI::App& app);
 

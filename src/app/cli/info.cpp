@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
+#include "app/cli/info_cad.h"
+#include "app/cli/progress.h"
 #include "io/content_hash.h"
 #include "app/cli/quantities.h"
 #include "io/formats.h"
@@ -21,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
     std::string file;
-    bool json = false;
+    bool json = false, no_cache = false, verbose = false;
 };
 
 std::string lower_extension(const std::string& file) {
@@ -41,6 +43,7 @@ std::string format_name(const std::string& file) {
 }
 
 std::uint64_t shape_bytes(const geometry::Shape& shape) {
+    if (const auto* brep = std::get_if<geometry::Brep>(&shape)) return sizeof shape + brep->bytes();
     const auto* mesh = std::get_if<geometry::Mesh>(&shape);
     if (!mesh) return sizeof shape;
     return sizeof shape + mesh->positions.size() * sizeof(mesh->positions[0]) + mesh->triangles.size() * sizeof(mesh->triangles[0]) +
@@ -115,6 +118,7 @@ Json describe(const InfoOptions& options, const io::Loaded& loaded, const Proble
         {"memory", scene_bytes(scene)},
     };
     if (problems.empty()) add_world(scene, json);
+    if (loaded.cad) json["cad"] = cad_json(loaded);
     json["warnings"] = problems_json(loaded.warnings);
     json["problems"] = problems_json(problems);
     return json;
@@ -160,7 +164,10 @@ void print(const Json& json) {
 }
 
 ExitCode info(const InfoOptions& options) {
-    const auto loaded = io::read_scene(options.file);
+    const auto loaded = [&] {
+        LoadingDisplay display(options.json);
+        return io::read_scene(options.file, read_options(!options.no_cache, options.verbose, display));
+    }();
     if (!loaded) return fail(loaded.error());
     const auto hash = io::content_hash(options.file);
     if (!hash) return fail(hash.error());
@@ -171,6 +178,7 @@ ExitCode info(const InfoOptions& options) {
         std::puts(json.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     } else {
         print(json);
+        if (loaded->cad) std::fputs(cad_text(*loaded).c_str(), stdout);
     }
     if (std::fflush(stdout) != 0) return fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
     warn(loaded->warnings);
@@ -184,6 +192,8 @@ Command add_info(CLI::App& app) {
     const auto options = std::make_shared<InfoOptions>();
     parser->add_option("MODEL", options->file, "Scene or model file")->required()->option_text(" ");
     parser->add_flag("--json", options->json, "Print JSON");
+    parser->add_flag("--no-cache", options->no_cache, "Read a CAD file anew, and keep nothing of it");
+    parser->add_flag("-v,--verbose", options->verbose, "Tell what the libraries that read the file have to say");
     parser->footer("Exit code 3 if the scene cannot be rendered as it is.");
     return {parser, [options](const Invocation&) { return info(*options); }};
 }

@@ -56,8 +56,8 @@ Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
 
 }  // namespace
 
-Expected<io::Loaded> load(const SceneRequest& request) {
-    auto loaded = io::read_scene(request.file);
+Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& options) {
+    auto loaded = io::read_scene(request.file, options);
     if (!loaded) return loaded;
     scene::Scene& scene = loaded->scene;
 

@@ -9,6 +9,6 @@ namespace crescente::app {
 
 // Reads the file, applies the options, validates, and adds the studio where something is missing. Every problem of the step that
 // fails is told.
-Expected<io::Loaded> load(const SceneRequest& request);
+Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& options);
 
 }  // namespace crescente::app

@@ -64,7 +64,7 @@ ExitCode run(int count, char** arguments) {
     CLI::App app("Crescente renders models by ray tracing with growing realism: a whole picture at once, better at every moment.", "crescente");
     app.set_version_flag("--version", std::string("crescente ") + CRESCENTE_VERSION);
     app.footer(footer);
-    const std::array commands = {add_render(app), add_info(app), add_bench(app), add_formats(app), add_schema(app)};
+    const std::array commands = {add_render(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app)};
     for (const Command& command : commands) command.parser->allow_extras();
     app.allow_extras();
 
@@ -87,7 +87,7 @@ ExitCode run(int count, char** arguments) {
         for (const Command& command : commands) names.push_back(command.parser->get_name());
         return usage("there is no command '" + unknown.front() + "'", spelling_hint(unknown.front(), names));
     }
-    return usage("a command is missing", "render, info, bench, formats or schema; see `crescente --help`");
+    return usage("a command is missing", "render, info, bench, compare, formats or schema; see `crescente --help`");
 }
 
 }  // namespace

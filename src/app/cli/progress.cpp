@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "app/cli/quantities.h"
+#include "app/cli/report.h"
 
 namespace crescente::app {
 namespace {
@@ -67,6 +68,40 @@ void ProgressDisplay::show(const render::Progress& progress, const render::Sessi
     } else {
         std::fprintf(stderr, "%s%s\n", progress.level.c_str(), numbers);
     }
+}
+
+LoadingDisplay::LoadingDisplay(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+LoadingDisplay::~LoadingDisplay() {
+    if (drawn_) std::fputs("\r\x1b[K", stderr);
+}
+
+void LoadingDisplay::show(double fraction, std::string_view stage) {
+    if (quiet_) return;
+    const auto now = Clock::now();
+    const double interval = terminal_ ? 0.1 : 2.0;  // seconds
+    if (std::chrono::duration<double>(now - last_).count() < interval) return;
+    last_ = now;
+    const std::string text(stage);
+    constexpr int stage_width = 16, bar_width = 40;
+    if (terminal_) {
+        const int room = std::min(bar_width, terminal_width() - stage_width - 10);
+        std::fprintf(stderr, "\r\x1b[K%-*s%s %3.0f %%", stage_width, text.c_str(), room > 4 ? bar(fraction, room).c_str() : "", fraction * 100);
+        std::fflush(stderr);
+        drawn_ = true;
+    } else {
+        std::fprintf(stderr, "%s %3.0f %%\n", text.c_str(), fraction * 100);
+    }
+}
+
+io::ReadOptions read_options(bool cache, bool verbose, LoadingDisplay& display) {
+    io::ReadOptions options;
+    options.cache = cache;
+    options.progress = [&display](double fraction, std::string_view stage) { display.show(fraction, stage); };
+    options.log = [verbose](LogLevel level, std::string_view text) {
+        if (verbose || level >= LogLevel::warning) note(std::string(text));
+    };
+    return options;
 }
 
 }  // namespace crescente::app

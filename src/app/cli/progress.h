@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "io/formats.h"
 #include "render/session.h"
 
 namespace crescente::app {
@@ -31,5 +32,26 @@ private:
     Clock::time_point start_ = Clock::now(), last_ = start_;
     std::uint64_t last_rays_ = 0;
 };
+
+// The same while a file is read, from the first tenth of a second on.
+class LoadingDisplay {
+public:
+    explicit LoadingDisplay(bool quiet);
+    ~LoadingDisplay();  // removes the bar
+    LoadingDisplay(const LoadingDisplay&) = delete;
+    LoadingDisplay& operator=(const LoadingDisplay&) = delete;
+
+    void show(double fraction, std::string_view stage);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    bool quiet_, terminal_;
+    bool drawn_ = false;
+    Clock::time_point last_ = Clock::now();
+};
+
+// How the command line reads files: progress on the display, which must outlive the options, and what libraries say in the log where `verbose`.
+io::ReadOptions read_options(bool cache, bool verbose, LoadingDisplay& display);
 
 }  // namespace crescente::app

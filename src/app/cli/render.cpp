@@ -190,7 +190,10 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (!request) return fail(request.error());
     if (const auto writable = check_outputs(options); !writable) return fail(writable.error());
 
-    auto loaded = load(request->scene);
+    auto loaded = [&] {
+        LoadingDisplay display(options.quiet);
+        return load(request->scene, read_options(request->scene.cache, request->scene.verbose, display));
+    }();
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
     const auto hash = io::content_hash(options.scene.file);

@@ -118,6 +118,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
         ->option_text("PATH=VALUE")->expected(1)->take_all();
     command.add_flag("--no-studio", options.no_studio, "Add no lights and ground to a bare model");
+    command.add_flag("--no-cache", options.no_cache, "Read a CAD file anew, and keep nothing of it");
+    command.add_flag("-v,--verbose", options.verbose, "Tell what the libraries that read the file have to say");
 }
 
 Expected<SceneRequest> understand(const SceneOptions& options) {
@@ -144,6 +146,8 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
     reader.request.file = options.file;
     reader.request.overrides = options.overrides;
     reader.request.studio = !options.no_studio;
+    reader.request.cache = !options.no_cache;
+    reader.request.verbose = options.verbose;
     return std::move(reader.request);
 }
 

@@ -22,7 +22,7 @@ struct SceneOptions {
     std::optional<std::string> camera, field_of_view;
     bool orthographic = false;
     std::vector<std::string> overrides;  // --set path=value
-    bool no_studio = false;
+    bool no_studio = false, no_cache = false, verbose = false;
 };
 
 // Declares the options; `options` must outlive the parsing.
@@ -34,7 +34,7 @@ struct SceneRequest {
     std::vector<std::pair<const Field<scene::Settings>*, FieldValue>> settings;
     View view;
     std::vector<std::string> overrides;
-    bool studio = true;
+    bool studio = true, cache = true, verbose = false;
 };
 
 // Every problem of the options at once (ErrorKind::usage).

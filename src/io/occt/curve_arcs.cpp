@@ -46,10 +46,19 @@ CurveArcs bezier_arc(const Geom_BezierCurve& curve, double t0, double t1) {
     return result;
 }
 
+// A little further than what is asked for, as what lies beyond may be anything.
+void segment_around(Geom_BSplineCurve& spline, double t0, double t1) {
+    constexpr double margin = 0.02;
+    const double low = spline.FirstParameter(), high = spline.LastParameter(), slack = 1e-9 * (high - low);
+    const double from = std::clamp(t0 - margin * (t1 - t0), low, high - 10 * slack), to = std::clamp(t1 + margin * (t1 - t0), from + 10 * slack, high);
+    if (from > low + slack || to < high - slack) spline.Segment(from, to);
+}
+
 CurveArcs spline_arcs(const Handle(Geom_BSplineCurve)& whole, double t0, double t1) {
     const Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(whole->Copy());
     const double period = spline->IsPeriodic() ? spline->Period() : 0;
     if (period > 0) spline->SetNotPeriodic();
+    else segment_around(*spline, t0, t1);
     GeomConvert_BSplineCurveToBezierCurve cut(spline);
     TColStd_Array1OfReal knots(1, cut.NbArcs() + 1);
     cut.Knots(knots);

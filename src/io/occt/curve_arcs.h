@@ -23,7 +23,7 @@ struct CurveArcs {
     bool rational = false, approximated = false;
 };
 
-// The curve from t0 to t1, arcs of splines whole beyond that. Exact but for offset curves, which are approximated to `tolerance`. Throws
+// The curve from t0 to t1, splines a little beyond. Exact but for offset curves, which are approximated to `tolerance`. Throws
 // Standard_Failure where OpenCASCADE cannot make anything of it.
 CurveArcs arcs_of(Handle(Geom_Curve) curve, double t0, double t1, double tolerance);
 

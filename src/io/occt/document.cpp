@@ -12,23 +12,18 @@
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
-#include <Interface_EntityIterator.hxx>
-#include <Interface_InterfaceModel.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Message_ProgressScope.hxx>
 #include <STEPCAFControl_ExternFile.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
-#include <StepBasic_DocumentFile.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Shape.hxx>
 #include <XCAFApp_Application.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-#include <XSControl_WorkSession.hxx>
 
-#include "io/text_file.h"
+#include "io/occt/references.h"
 
 namespace crescente::io::occt {
 namespace {
@@ -87,30 +82,14 @@ void take_step_unit(const STEPControl_Reader& reader, CadDocument& result) {
     result.warnings.push_back({{}, {}, "its unit of length '" + name + "' is not known here: lengths are shown in millimetres", {}});
 }
 
-// Only what lies in the file's own folder and below may be read for it: other names are taken away before the transfer follows them.
-void keep_references_in_folder(STEPCAFControl_Reader& reader, CadDocument& result) {
-    const Handle(Interface_InterfaceModel) model = reader.Reader().WS()->Model();
-    if (model.IsNull()) return;
-    for (int i = 1; i <= model->NbEntities(); ++i) {
-        const auto named = Handle(StepBasic_DocumentFile)::DownCast(model->Value(i));
-        if (named.IsNull() || named->Id().IsNull()) continue;
-        const std::string name = named->Id()->ToCString();
-        if (stays_in_folder(name)) continue;
-        named->SetId(new TCollection_HAsciiString(""));
-        result.warnings.push_back({{}, {}, "'" + name.substr(0, 100) + "', which it names, does not lie in its folder and is not read", {}});
-    }
-}
-
-void note_references(const STEPCAFControl_Reader& reader, const fs::path& file, CadDocument& result) {
+void tell_missing_references(const STEPCAFControl_Reader& reader, const fs::path& file, CadDocument& result) {
     const auto& files = reader.ExternFiles();
     for (NCollection_DataMap<TCollection_AsciiString, Handle(STEPCAFControl_ExternFile)>::Iterator each(files); each.More(); each.Next()) {
+        if (!each.Value().IsNull() && each.Value()->GetLoadStatus() == IFSelect_RetDone) continue;
         const std::string name = each.Key().ToCString();
         std::error_code code;
-        const fs::path at = file.parent_path() / name;
-        if (fs::is_regular_file(at, code)) result.referenced.push_back(name);
-        if (each.Value().IsNull() || each.Value()->GetLoadStatus() != IFSelect_RetDone) {
-            result.warnings.push_back({{}, {}, "'" + name.substr(0, 100) + "', which it names, " + (fs::exists(at, code) ? "cannot be read" : "is not there"), {}});
-        }
+        const bool there = fs::exists(file.parent_path() / name, code);
+        result.warnings.push_back({{}, {}, "'" + name.substr(0, 100) + "', which it names, " + (there ? "cannot be read" : "is not there"), {}});
     }
 }
 
@@ -120,12 +99,11 @@ std::string read_step(const fs::path& file, const Progress& progress, CadDocumen
     reader.SetColorMode(true), reader.SetNameMode(true), reader.SetLayerMode(true), reader.SetSHUOMode(true);
     reader.SetPropsMode(false), reader.SetGDTMode(false), reader.SetMatMode(false), reader.SetViewMode(false);
     if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) return "is not a STEP file, or is damaged: OpenCASCADE cannot read it";
-    keep_references_in_folder(reader, result);
     take_step_unit(reader.Reader(), result);
     progress(parsed, transferring);
     const Handle(Indicator) indicator = new Indicator(progress, parsed, transferred, transferring);
     if (!reader.Transfer(result.document, indicator->Start())) return "has no shape that OpenCASCADE can build";
-    note_references(reader, file, result);
+    tell_missing_references(reader, file, result);
     return {};
 }
 
@@ -179,7 +157,12 @@ Expected<CadDocument> read_document(const std::string& file, const std::string& 
     try {
         if (extension == ".igs" || extension == ".iges") wrong = read_iges(file, progress, result);
         else if (extension == ".brep" || extension == ".brp" || extension == ".rle") wrong = read_brep(file, progress, result);
-        else wrong = read_step(file, progress, result);
+        else {
+            auto references = references_of(file, shown_name);
+            if (!references) return tl::unexpected<Error>(std::move(references.error()));
+            result.referenced = std::move(*references);
+            wrong = read_step(file, progress, result);
+        }
     } catch (const Standard_Failure& failure) {
         wrong = std::string("is damaged: OpenCASCADE says '") + failure.GetMessageString() + "'";
     } catch (const std::ios_base::failure&) {

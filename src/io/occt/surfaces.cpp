@@ -38,25 +38,23 @@ BezierPatch patch_of(const Geom_BezierSurface& surface, double u0, double u1, do
     return patch;
 }
 
-// The stretch of knots that the box needs, and by how many turns of the period the box lies elsewhere. The surface is not periodic any more.
-struct Spans {
+// The stretch of a parameter that the box needs, and by how many turns of the period the box lies elsewhere. The surface is not periodic any more.
+struct Stretch {
     double first, last;
     double period;  // 0: never was
     int first_turn = 0, last_turn = 0;
 
-    Spans(double low, double high, double turn, double from, double to, const TColStd_Array1OfReal& knots) : first(low), last(high), period(turn) {
+    Stretch(double low, double high, double turn, double from, double to) : first(low), last(high), period(turn) {
         const double slack = 1e-9 * (high - low);
         if (period > 0 && (from < low - slack || to > high + slack)) {
             first_turn = static_cast<int>(std::floor((from + slack - low) / period));
             last_turn = static_cast<int>(std::floor((to - slack - low) / period));
             return;
         }
-        // Whole spans, so that the surface goes on past the loops; and not the whole of a large surface for a small face.
-        int begin = knots.Lower();
-        while (begin + 1 < knots.Upper() && (knots(begin + 1) <= from + slack || knots(begin + 1) <= low)) ++begin;
-        int end = begin + 1;
-        while (end < knots.Upper() && knots(end) < to - slack) ++end;
-        first = std::max(low, knots(begin)), last = std::min(high, knots(end));
+        // A little further than the loops, and no more: exporters extend surfaces wildly beyond, and that would cost hundreds of leaves for nothing.
+        constexpr double margin = 0.02;
+        first = std::clamp(from - margin * (to - from), low, high - 10 * slack);
+        last = std::clamp(to + margin * (to - from), first + 10 * slack, high);
     }
 };
 
@@ -67,7 +65,7 @@ PatchSurface spline_patches(const Handle(Geom_BSplineSurface)& whole, const Box2
     if (v_period > 0) spline->SetVNotPeriodic();
     double u0, u1, v0, v1;
     spline->Bounds(u0, u1, v0, v1);
-    const Spans u(u0, u1, u_period, box.u0, box.u1, spline->UKnots()), v(v0, v1, v_period, box.v0, box.v1, spline->VKnots());
+    const Stretch u(u0, u1, u_period, box.u0, box.u1), v(v0, v1, v_period, box.v0, box.v1);
     constexpr double same_knot = 1e-12;
     GeomConvert_BSplineSurfaceToBezierSurface cut(spline, u.first, u.last, v.first, v.last, same_knot * std::max(u1 - u0, v1 - v0));
     TColStd_Array1OfReal u_knots(1, cut.NbUPatches() + 1), v_knots(1, cut.NbVPatches() + 1);

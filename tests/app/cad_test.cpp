@@ -1,0 +1,77 @@
+// CAD files by the real program: info, cache, compare.
+#include <cstdlib>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "app/program.h"
+
+namespace crescente::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class Cad : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!fs::exists(fs::path(CRESCENTE_PROGRAM).parent_path() / "../lib/crescente_opencascade.so")) GTEST_SKIP() << "this build is without OpenCASCADE";
+        if (!fs::exists(assembly_)) GTEST_SKIP() << "the shared CAD assets are not here";
+        fs::create_directories(cache_);
+        setenv("XDG_CACHE_HOME", cache_.c_str(), 1);
+    }
+    void TearDown() override {
+        fs::remove_all(cache_);
+        unsetenv("XDG_CACHE_HOME");
+    }
+    std::size_t entries() const {
+        std::size_t count = 0;
+        for (const auto& each : fs::recursive_directory_iterator(cache_)) count += each.is_regular_file();
+        return count;
+    }
+
+    const std::string assembly_ = std::string(CRESCENTE_SHARED) + "/assets/cad/05_as1-oc-214.stp";
+    const fs::path cache_ = fs::temp_directory_path() / ("crescente_app_cad_" + std::to_string(getpid()));
+};
+
+TEST_F(Cad, InfoTellsTreeAndSurfaces) {
+    const Outcome outcome = crescente({"info", assembly_});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* words : {"53, shown 160 with instances", "25 plane, 28 b-spline", "nut-bolt-assembly_1 x 3", "plate_1: 18 faces"}) {
+        EXPECT_TRUE(contains(outcome.out, words)) << words << '\n' << outcome.out;
+    }
+    const Outcome machine = crescente({"info", assembly_, "--json"});
+    const Json cad = Json::parse(machine.out).at("cad");
+    EXPECT_EQ(cad.at("exact"), 53);
+    EXPECT_EQ(cad.at("surfaces").at("plane"), 25);
+    EXPECT_EQ(cad.at("tree").size(), 14u);
+    EXPECT_EQ(machine.out, crescente({"info", assembly_, "--json", "--no-cache"}).out);  // from the cache or not
+}
+
+TEST_F(Cad, TheCacheIsUsedUnlessForbidden) {
+    ASSERT_EQ(crescente({"info", assembly_, "--no-cache"}).code, 0);
+    EXPECT_EQ(entries(), 0u);
+    ASSERT_EQ(crescente({"info", assembly_}).code, 0);
+    EXPECT_EQ(entries(), 1u);
+    ASSERT_EQ(crescente({"info", assembly_}).code, 0);
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(Cad, CompareTellsHowFarTrianglesStray) {
+    const fs::path picture = cache_ / "difference.png";
+    const auto at = [&](const char* deflection) {
+        const Outcome outcome = crescente({"compare", assembly_, "--deflection", deflection, "--size", "160x120", "--json", "-o", picture.string()});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return Json::parse(outcome.out);
+    };
+    const Json coarse = at("2e-2"), fine = at("1e-4");
+    EXPECT_TRUE(fs::exists(picture));
+    EXPECT_EQ(fine.at("exact").at("pieces"), 53);
+    EXPECT_GT(fine.at("triangles").at("pieces"), coarse.at("triangles").at("pieces"));
+    EXPECT_GT(coarse.at("depth_mm").at("mean"), fine.at("depth_mm").at("mean"));
+    EXPECT_LT(fine.at("depth_mm").at("mean").get<double>(), 0.05);
+    EXPECT_GT(fine.at("pixels").at("both").get<int>(), 1000);
+    EXPECT_EQ(crescente({"compare", (scenes / "balls4.nff").string()}).code, 2);
+}
+
+}  // namespace
+}  // namespace crescente::test
