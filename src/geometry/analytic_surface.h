@@ -131,7 +131,8 @@ TwoRoots<T> cone_roots(const LocalLine<T>& line, double radius, double slope) {
     const T low = one < other ? one : other, high = one < other ? other : one;
     // Along the wall: one root. Past a convex wall: none.
     const T single = -c / (2.0 * b);
-    const auto flat = a == 0.0, missed = (a > 0.0) & !(discriminant > 0.0);
+    const auto flat = a == 0.0;
+    const auto missed = (a > 0.0) & !(discriminant > 0.0);
     return {flat ? (b == 0.0 ? none : single) : missed ? none : low, (flat | missed) ? none : high};
 }
 

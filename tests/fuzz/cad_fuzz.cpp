@@ -1,5 +1,7 @@
 // What comes from the process that reads CAD files, and from the cache: its messages, models as bytes, entries. OpenCASCADE itself is not ours to fuzz: it
 // works in a process of its own because it fails on damaged files. The first byte says which.
+#include <cstring>
+
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
