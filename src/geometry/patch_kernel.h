@@ -117,7 +117,8 @@ struct PatchRay {
         delta = (reach + greater(greater(absolute(origin.x), absolute(origin.y)), absolute(origin.z))) * (16 * std::numeric_limits<double>::epsilon());
     }
 
-    auto usable() const { return (speed > 0.0) & (speed < HUGE_VAL) & (delta < HUGE_VAL); }
+    // Whether numbers are such that no product overflows.
+    auto usable() const { return (speed > 0.0) & (speed < HUGE_VAL) & (delta < 1e100); }
 };
 
 inline Lanes load_lanes(const double* from) {
