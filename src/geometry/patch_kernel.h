@@ -117,7 +117,11 @@ struct PatchRay {
         delta = (reach + greater(greater(absolute(origin.x), absolute(origin.y)), absolute(origin.z))) * (16 * std::numeric_limits<double>::epsilon());
     }
 
-    auto usable() const { return (speed > 0.0) & (speed < HUGE_VAL) & (delta < HUGE_VAL); }
+    // Whether all are numbers, and such that no product overflows.
+    auto usable() const {
+        constexpr double most = 1e100;
+        return (speed > 0.0) & (speed < HUGE_VAL) & (delta < most) & (absolute(origin.x) < most) & (absolute(origin.y) < most) & (absolute(origin.z) < most);
+    }
 };
 
 inline Lanes load_lanes(const double* from) {

@@ -214,7 +214,7 @@ int roots_in(D degrees, const LeafPoints& points, const PatchRay<double>& ray, c
     if (first.excluded) return 0;
     if (first.found) {
         const double t = parameter_at(degrees, points, ray, first.u, first.v);
-        if (!(t > within.t_min && t <= within.t_max)) return 0;
+        if (!(t > within.t_min && t <= within.t_max && t < HUGE_VAL)) return 0;
         out[0] = {t, first.u, first.v};
         return 1;
     }
@@ -223,7 +223,7 @@ int roots_in(D degrees, const LeafPoints& points, const PatchRay<double>& ray, c
     search(degrees, points, ray, box, found);
     std::size_t count = 0;
     for (const Found& root : found.sorted()) {
-        if (root.t > within.t_min && root.t <= within.t_max && count < out.size()) out[count++] = {root.t, root.u, root.v};
+        if (root.t > within.t_min && root.t <= within.t_max && root.t < HUGE_VAL && count < out.size()) out[count++] = {root.t, root.u, root.v};
     }
     return static_cast<int>(count);
 }
@@ -244,7 +244,7 @@ LaneAnswer roots_in(D degrees, const LeafPoints& points, const PatchRay<Lanes>& 
     if (!any(result.found)) return {decided, 0};
     out.u = result.u, out.v = result.v;
     out.t = parameter_at(degrees, points, ray, result.u, result.v);
-    return {decided, bits_of(result.found & (out.t > within.t_min) & (out.t <= within.t_max))};
+    return {decided, bits_of(result.found & (out.t > within.t_min) & (out.t <= within.t_max) & (out.t < HUGE_VAL))};
 }
 
 template <class T>
