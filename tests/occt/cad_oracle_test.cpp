@@ -132,6 +132,12 @@ bool at_an_edge(const TopoDS_Shape& shape, const EdgeBands& bands, Vec3 p) {
     return false;
 }
 
+// Whether OpenCASCADE itself says that the point is on the shape: then a ray that it sees go further has missed something.
+bool on_shape(const TopoDS_Shape& shape, Vec3 p, double within) {
+    const BRepExtrema_DistShapeShape distance(BRepBuilderAPI_MakeVertex(gp_Pnt(p.x, p.y, p.z)), shape);
+    return distance.IsDone() && distance.Value() <= within;
+}
+
 struct Tally {
     int rays = 0, hits = 0, at_edges = 0, missed_by_oracle = 0, wrong = 0;
     double worst = 0;  // of the distances where both hit the same, relative to the diagonal
@@ -168,7 +174,8 @@ void compare(const Part& part, int rays, std::mt19937_64& random, Tally& tally) 
             ++tally.at_edges;
             continue;
         }
-        if (!from_inside && oracle_missed_one(part, bands, ray, found, same * diagonal)) {
+        const bool nearer = ours && (!theirs || *ours < *theirs);
+        if ((!from_inside && oracle_missed_one(part, bands, ray, found, same * diagonal)) || (nearer && on_shape(part.shape, ray.at(*ours), 1e-9 * diagonal))) {
             ++tally.missed_by_oracle;
             continue;
         }
