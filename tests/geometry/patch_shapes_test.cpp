@@ -344,5 +344,15 @@ TEST(PatchShapes, WrongDescriptionsAreTold) {
     EXPECT_FALSE(weights.patches());
 }
 
+TEST(PatchShapes, HostileRays) {
+    check_hostile_rays(ball(1));
+    Random random(12);
+    Bicubic shape;
+    shape.points.resize(1);
+    for (auto& p : shape.points[0]) p = random.inside_cube();
+    shape.prepare();
+    check_hostile_rays(shape);
+}
+
 }  // namespace
 }  // namespace crescente::geometry::test
