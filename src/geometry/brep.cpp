@@ -8,8 +8,6 @@
 namespace crescente::geometry {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
-
 // The points of a plane face's loops: tighter than the box of their parameters where the plane lies askew.
 Bounds plane_bounds(const AnalyticSurface& plane, const Trimming& trimming) {
     Bounds box;

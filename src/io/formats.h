@@ -19,7 +19,7 @@ namespace crescente::io {
 struct Loaded {
     scene::Scene scene;
     Problems warnings;
-    std::optional<CadCounts> cad;  // of CAD files: their faces by kind
+    std::optional<CadCounts> cad = {};  // of CAD files: their faces by kind
 };
 
 // What reading a file may use and tell. Formats that are read at once make nothing of it.

@@ -423,7 +423,9 @@ TEST(SceneFile, RandomScenesComeBackEqual) {
         for_each_appearance(scene, [&](std::uint32_t n, const math::Affine& a, const auto&) { shown.push_back(scene.nodes[n].shape.value), where.push_back(a); });
         for_each_appearance(read_back->scene, [&](std::uint32_t n, const math::Affine& a, const auto&) { shown_again.push_back(read_back->scene.nodes[n].shape.value), where_again.push_back(a); });
         ASSERT_EQ(shown, shown_again) << "seed " << seed;
-        if (scene.unit.name == "m") ASSERT_EQ(where, where_again) << "seed " << seed;
+        if (scene.unit.name == "m") {
+            ASSERT_EQ(where, where_again) << "seed " << seed;
+        }
     }
 }
 
