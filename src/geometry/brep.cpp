@@ -80,7 +80,7 @@ Expected<void> Brep::add_analytic(const Face& face) {
     surface->set_center(box.center());
     box = grown(box, 2 * trimming->widest_band() + 4 * surface->error(box));
     const auto index = static_cast<std::uint32_t>(faces_.size());
-    faces_.push_back({std::move(*surface), none, face.reversed, face.slot, std::move(*trimming)});
+    faces_.push_back({std::move(*surface), none, face.reversed, face.slot, face.shell, std::move(*trimming)});
     leaves_.push_back({box, index, 0});
     return {};
 }
@@ -96,7 +96,7 @@ Face Brep::face(std::uint32_t index) const {
     }
     face.u0 = box.u0, face.u1 = box.u1, face.v0 = box.v0, face.v1 = box.v1;
     face.loops = from.trimming.loops();
-    face.reversed = from.reversed, face.slot = from.slot;
+    face.reversed = from.reversed, face.slot = from.slot, face.shell = from.shell;
     return face;
 }
 

@@ -51,6 +51,7 @@ private:
         std::uint32_t patches = none;   // index into patches_
         bool reversed = false;
         std::uint16_t slot = 0;
+        std::uint32_t shell = 0;
         Trimming trimming;
     };
     struct Patches {

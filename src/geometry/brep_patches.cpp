@@ -93,7 +93,7 @@ Expected<void> Brep::add_patches(const Face& face, const PatchSurface& surface) 
         leaves_.push_back({{box.lower - grow, box.upper + grow}, index, leaf});
     }
     if (leaves_.size() == first) return failure(ErrorKind::input, {"", "", "loops that lie beside the surface", ""});
-    faces_.push_back({{}, set, face.reversed, face.slot, std::move(*trimming)});
+    faces_.push_back({{}, set, face.reversed, face.slot, face.shell, std::move(*trimming)});
     patches_.push_back(std::move(patches));
     return {};
 }

@@ -13,6 +13,7 @@
 #include <TopExp.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListIteratorOfListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
@@ -57,6 +58,36 @@ std::vector<EdgePoints> sides_of(const TopoDS_Edge& edge, const TopTools_ListOfS
     return sides;
 }
 
+// Sets of faces that edges join: a forest in which every face knows one of its set (Tarjan 1975, "Efficiency of a good but not linear set union algorithm").
+class FaceSets {
+public:
+    void join(const TopTools_ListOfShape& faces) {
+        for (TopTools_ListIteratorOfListOfShape face(faces); face.More(); face.Next()) join(faces.First(), face.Value());
+    }
+    void join(const TopoDS_Shape& a, const TopoDS_Shape& b) {
+        const int one = root(index_of(a)), other = root(index_of(b));
+        above_[static_cast<std::size_t>(std::max(one, other))] = std::min(one, other);
+    }
+    void number(TopTools_DataMapOfShapeInteger& shells) {
+        for (int i = 1; i <= faces_.Extent(); ++i) shells.Bind(faces_(i), root(i) - 1);
+    }
+
+private:
+    int index_of(const TopoDS_Shape& face) {
+        const int index = faces_.Add(face);
+        for (int next = static_cast<int>(above_.size()); next <= index; ++next) above_.push_back(next);
+        return index;
+    }
+    int root(int face) {
+        auto above = [&](int f) -> int& { return above_[static_cast<std::size_t>(f)]; };
+        while (above(face) != face) face = above(face) = above(above(face));
+        return face;
+    }
+
+    TopTools_IndexedMapOfShape faces_;
+    std::vector<int> above_;
+};
+
 }  // namespace
 
 EdgeBands::EdgeBands(const TopoDS_Shape& part) {
@@ -67,10 +98,12 @@ EdgeBands::EdgeBands(const TopoDS_Shape& part) {
     TopTools_IndexedDataMapOfShapeListOfShape edges;
     TopExp::MapShapesAndUniqueAncestors(part, TopAbs_EDGE, TopAbs_FACE, edges);
     std::vector<FreeEdge> free_edges;
+    FaceSets sets;
     for (int i = 1; i <= edges.Extent(); ++i) {
         const TopoDS_Edge& edge = TopoDS::Edge(edges.FindKey(i));
         const TopTools_ListOfShape& faces = edges(i);
         if (faces.IsEmpty()) continue;
+        sets.join(faces);
         const double tolerance = BRep_Tool::Tolerance(edge);
         largest_tolerance_ = std::max(largest_tolerance_, tolerance);
         double gap = 0;
@@ -91,13 +124,20 @@ EdgeBands::EdgeBands(const TopoDS_Shape& part) {
         band = std::max(band, found.gap);
         largest_gap_ = std::max(largest_gap_, found.gap);
         unmatched_ -= found.matched;
+        if (found.matched) sets.join(edges(free_edges[found.edge].id).First(), edges(free_edges[found.other].id).First());
     }
+    sets.number(shells_);
     unmatched_ += free_edges.size();
 }
 
 double EdgeBands::band(const TopoDS_Edge& edge) const {
     const double* found = bands_.Seek(edge);
     return (found ? *found : BRep_Tool::Tolerance(edge)) + floor_;
+}
+
+std::uint32_t EdgeBands::shell(const TopoDS_Face& face) const {
+    const int* found = shells_.Seek(face);
+    return static_cast<std::uint32_t>(found ? *found : 0);
 }
 
 }  // namespace crescente::io::occt

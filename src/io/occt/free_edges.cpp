@@ -71,7 +71,7 @@ std::vector<FreeEdgeGap> gaps_between(const std::vector<FreeEdge>& edges, double
     std::vector<FreeEdgeGap> gaps;
     for (std::size_t e = 0; e < edges.size(); ++e) {
         const FreeEdge& one = edges[e];
-        FreeEdgeGap result{e, false, 0};
+        FreeEdgeGap result{e, false, e, 0};
         double best = reach;
         around(one.points.front(), [&](std::size_t other) {
             if (other == e) return;
@@ -81,7 +81,7 @@ std::vector<FreeEdgeGap> gaps_between(const std::vector<FreeEdge>& edges, double
             if (length(points.front() - one.points.front()) > allowed || length(points.back() - one.points.back()) > allowed) return;
             const double gap = distance_between(one.points, points);
             if (gap > allowed || (result.matched && gap >= best)) return;
-            result.matched = true, best = gap;
+            result.matched = true, result.other = other, best = gap;
         });
         result.gap = result.matched ? best : 0;
         gaps.push_back(result);

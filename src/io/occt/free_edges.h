@@ -22,6 +22,7 @@ struct FreeEdge {
 struct FreeEdgeGap {
     std::size_t edge;  // index of a free edge
     bool matched;      // another runs along all of it
+    std::size_t other;  // that one; itself where not matched
     double gap;        // mm, 0 where not matched
 };
 
