@@ -278,7 +278,8 @@ bool Trimming::near_edge(Point2 p, const Metric& metric) const {
 int Trimming::near_edges(Point2 p, const Metric& metric, NearEdge* edges) const {
     int count = 0;
     any_near(p, metric, [&](const MonotonePiece& piece, const NearestPoint& near) {
-        NearEdge edge{outward_of(piece, near.along, metric), std::sqrt(near.distance2), piece.band};
+        const Point2 middle = middle_of(piece, stretch_of(piece), curve_of(piece)).at;
+        NearEdge edge{outward_of(piece, near.along, metric), {middle.u - near.at.u, middle.v - near.at.v}, std::sqrt(near.distance2), piece.band};
         for (int i = 0; i < count; ++i) {
             if (edge.distance < edges[i].distance) std::swap(edge, edges[i]);
         }

@@ -42,6 +42,7 @@ public:
     // The edges within whose bands p lies, on either side, the nearest first. p as `Located` has it.
     struct NearEdge {
         Point2 outward;       // a direction in (u, v) orthogonal to the edge by the metric, away from the inside; zero if the loops do not tell
+        Point2 body;          // from the edge's point next to p to its middle
         double distance = 0;  // in space
         double band = 0;
     };

@@ -103,7 +103,7 @@ inline std::vector<EdgePoint> edge_points(const CadPart& part, int count, Random
                     const auto here = surface.at(point_of(edge.piece, share)), beside = surface.at(point_of(edge.piece, share < 0.5 ? share + 1e-4 : share - 1e-4));
                     if (!here || !beside) continue;
                     const Vec3 along = here->position - beside->position;
-                    if (dot(along, along) > 0) points.push_back({here->position, along, here->normal, edge.band, face.shell});
+                    if (length(along) > 1e-4 * edge.band) points.push_back({here->position, along, here->normal, edge.band, face.shell});
                 }
             }
         }

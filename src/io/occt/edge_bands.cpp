@@ -7,9 +7,12 @@
 #include <BRepBndLib.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2d_Curve.hxx>
+#include <GeomAbs_Shape.hxx>
 #include <Geom_Surface.hxx>
 #include <Standard_Failure.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -27,20 +30,54 @@ namespace {
 using math::Vec3;
 using math::operator-;
 
-constexpr int places = 12;
+constexpr int least_places = 12;
 constexpr double least_band = 1e-6;  // of the diagonal
 
+// Where the sides of an edge are compared: in each span of its curves in their surfaces' parameters, since curves that were fitted to points at the knots agree best there.
+std::vector<double> places_of(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) {
+    std::vector<double> stops;
+    for (TopTools_ListIteratorOfListOfShape face(faces); face.More(); face.Next()) {
+        double t0, t1;
+        const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, TopoDS::Face(face.Value()), t0, t1);
+        if (curve.IsNull() || !std::isfinite(t0) || !std::isfinite(t1)) continue;
+        stops.push_back(t0), stops.push_back(t1);
+        const Geom2dAdaptor_Curve adaptor(curve, t0, t1);
+        const int spans = adaptor.NbIntervals(GeomAbs_CN);
+        TColStd_Array1OfReal knots(1, spans + 1);
+        adaptor.Intervals(knots, GeomAbs_CN);
+        for (int i = 2; i <= spans; ++i) stops.push_back(knots(i));
+    }
+    std::sort(stops.begin(), stops.end());
+    stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+    std::vector<double> places;
+    if (stops.empty()) return places;
+    const std::size_t each = std::max<std::size_t>(3, (least_places + stops.size() - 1) / stops.size());
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        for (std::size_t k = 0; k < each; ++k) places.push_back(stops[i] + (stops[i + 1] - stops[i]) * static_cast<double>(k) / static_cast<double>(each));
+    }
+    places.push_back(stops.back());
+    return places;
+}
+
+std::vector<double> even_places(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+    double t0, t1;
+    std::vector<double> places;
+    if (BRep_Tool::CurveOnSurface(edge, face, t0, t1).IsNull() || !std::isfinite(t0) || !std::isfinite(t1)) return places;
+    for (int i = 0; i < least_places; ++i) places.push_back(t0 + (t1 - t0) * i / (least_places - 1));
+    return places;
+}
+
 // The points that one face gives an edge.
-void add_side(const TopoDS_Edge& edge, const TopoDS_Face& face, std::vector<EdgePoints>& sides) {
+void add_side(const TopoDS_Edge& edge, const TopoDS_Face& face, const std::vector<double>& places, std::vector<EdgePoints>& sides) {
     double t0, t1;
     const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
-    if (curve.IsNull() || !std::isfinite(t0) || !std::isfinite(t1)) return;
+    if (curve.IsNull() || places.empty()) return;
     TopLoc_Location location;
     const Handle(Geom_Surface)& surface = BRep_Tool::Surface(face, location);
     if (surface.IsNull()) return;
     EdgePoints points;
-    for (int i = 0; i < places; ++i) {
-        const gp_Pnt2d p = curve->Value(t0 + (t1 - t0) * i / (places - 1));
+    for (const double t : places) {
+        const gp_Pnt2d p = curve->Value(t);
         gp_Pnt q = surface->Value(p.X(), p.Y());
         if (!location.IsIdentity()) q.Transform(location.Transformation());
         points.push_back(vec(q));
@@ -50,10 +87,13 @@ void add_side(const TopoDS_Edge& edge, const TopoDS_Face& face, std::vector<Edge
 
 std::vector<EdgePoints> sides_of(const TopoDS_Edge& edge, const TopTools_ListOfShape& faces) {
     std::vector<EdgePoints> sides;
+    const TopoDS_Face first = TopoDS::Face(faces.First().Oriented(TopAbs_FORWARD));
+    const bool free = faces.Extent() == 1 && !BRep_Tool::IsClosed(edge, first);
+    const std::vector<double> places = free ? even_places(edge, first) : places_of(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), faces);
     for (TopTools_ListIteratorOfListOfShape face(faces); face.More(); face.Next()) {
         const TopoDS_Face forward = TopoDS::Face(face.Value().Oriented(TopAbs_FORWARD));
-        add_side(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), forward, sides);
-        if (BRep_Tool::IsClosed(edge, forward)) add_side(TopoDS::Edge(edge.Oriented(TopAbs_REVERSED)), forward, sides);
+        add_side(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), forward, places, sides);
+        if (BRep_Tool::IsClosed(edge, forward)) add_side(TopoDS::Edge(edge.Oriented(TopAbs_REVERSED)), forward, places, sides);
     }
     return sides;
 }
