@@ -13,6 +13,8 @@
 namespace crescente::geometry {
 namespace {
 
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
 bool holds(const Bounds& box, Vec3 p) {
     return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y && p.z >= box.lower.z && p.z <= box.upper.z;
 }
@@ -52,29 +54,33 @@ public:
         bool near_edge = true;
     };
 
-    // A crossing that others replace does not count; where all of them replace each other, at a vertex where surfaces contradict each other, the one on the first face does.
+    // A crossing that another one replaces does not count, if that one counts, or is replaced in turn. Where surfaces contradict each other, at vertices, there is doubt; then
+    // it counts: where all replace each other the one on the first face does, and one that is cancelled replaces none but those of the face that cancels it.
     bool counts(const Crossing& crossing) const {
         constexpr std::size_t most = 8;
         Crossing found[most] = {crossing};
         std::size_t count = 1;
+        bool first = true;
         for (std::size_t i = 0; i < count; ++i) {
             if (!found[i].near_edge) return false;  // it counts in any case
             Relation relations[most_relations];
-            const int related = relations_of(found[i], relations);
-            const auto is = [&](Relation::Kind kind) { return std::any_of(relations, relations + related, [&](const Relation& r) { return r.kind == kind; }); };
-            const bool cancelled = is(Relation::cancelled);
-            if (i == 0 && cancelled) return false;
-            if (cancelled || !is(Relation::replaced)) return i == 0;
-            for (int k = 0; k < related; ++k) {
-                if (relations[k].kind != Relation::replaced) continue;
-                const Crossing& by = relations[k].by;
-                const bool known = std::any_of(found, found + count, [&](const Crossing& c) { return face_of(c) == face_of(by) && c.t == by.t; });
+            const auto end = relations + relations_of(found[i], relations);
+            const auto is = [&](Relation::Kind kind) { return [kind](const Relation& r) { return r.kind == kind; }; };
+            if (std::any_of(relations, end, is(Relation::cancelled))) {
+                if (i == 0 || std::any_of(relations, end, [&](const Relation& r) { return r.kind == Relation::cancelled && face_of(r.by) == face_of(crossing); })) return false;
+                continue;
+            }
+            if (std::none_of(relations, end, is(Relation::replaced))) return i == 0;
+            first = first && face_of(crossing) <= face_of(found[i]);
+            for (const Relation* r = relations; r != end; ++r) {
+                if (r->kind != Relation::replaced) continue;
+                const bool known = std::any_of(found, found + count, [&](const Crossing& c) { return face_of(c) == face_of(r->by) && c.t == r->by.t; });
                 if (known) continue;
                 if (count == most) return true;
-                found[count++] = by;
+                found[count++] = r->by;
             }
         }
-        return std::none_of(found + 1, found + count, [&](const Crossing& c) { return face_of(c) < face_of(crossing); });
+        return first;
     }
 
 private:
@@ -200,6 +206,8 @@ private:
             return relation;
         }
         // Inside of the other surface at the hit? The order of the two crossings tells, the same way for both of them, however near they are.
+        const double blur = 64 * eps * (max_component(abs(hit.position)) + leaf.box.largest_coordinate());
+        if (!there.crossed && std::abs(beyond) <= blur) return {Relation::stands, relation.edge};
         const bool earlier = there.crossing.t != hit.t ? there.crossing.t < hit.t : leaf.face < hit.face;
         const bool within = there.crossed ? there.enters == earlier : beyond < 0;
         if (within == (turn > 0)) relation.kind = Relation::stands;

@@ -263,7 +263,7 @@ private:
             if (verdict(rays[i], c) != Verdict::sound) {
                 ++odd;
             } else if (!c.empty() && c[1].t - c[0].t > 1e-3 * length(shell.box.diagonal()) && between.size() < most) {
-                between.push_back(rays[i].ray.at(0.5 * (c[0].t + c[1].t)));
+                between.push_back(rays[i].ray.at(c[0].t + random_.between(0.3, 0.7) * (c[1].t - c[0].t)));
             }
         }
         if (200 * odd > hit) return;

@@ -153,7 +153,7 @@ EdgeBands::EdgeBands(const TopoDS_Shape& part) {
                 sides = sides_of(edge, faces);
             } catch (const Standard_Failure&) {  // of a curve or surface that cannot be evaluated: its face will tell
             }
-            for (std::size_t side = 1; side < sides.size(); ++side) gap = std::max(gap, distance_between(sides[0], sides[side]));
+            for (std::size_t side = 1; side < sides.size(); ++side) gap = std::max(gap, distance_between(sides[0], sides[side], std::max(tolerance, floor_)));
             if (sides.size() == 1) free_edges.push_back({i, tolerance, std::move(sides[0])});
         }
         largest_gap_ = std::max(largest_gap_, gap);

@@ -39,9 +39,10 @@ Cell cell_of(Vec3 p, double size) {
 
 }  // namespace
 
-double distance_between(const EdgePoints& a, const EdgePoints& b) {
+double distance_between(const EdgePoints& a, const EdgePoints& b, double enough) {
     double same_pace = 0, apart = 0;
     for (std::size_t i = 0; i < a.size(); ++i) same_pace = std::max(same_pace, length(a[i] - b[i]));
+    if (same_pace <= enough) return same_pace;
     for (const Vec3 p : a) apart = std::max(apart, polyline_distance(p, b) + sag(b));
     for (const Vec3 p : b) apart = std::max(apart, polyline_distance(p, a) + sag(a));
     return std::min(same_pace, apart);
