@@ -55,19 +55,20 @@ public:
     };
 
     // A crossing that another one replaces does not count, if that one counts, or is replaced in turn. Where surfaces contradict each other, at vertices, there is doubt; then
-    // it counts: where all replace each other the one on the first face does, and one that is cancelled replaces none but those of the face that cancels it.
+    // it counts: where all replace each other the one on the first face does, and one that is cancelled close by replaces none but those of the face that cancels it.
     bool counts(const Crossing& crossing) const {
         constexpr std::size_t most = 8;
         Crossing found[most] = {crossing};
         std::size_t count = 1;
-        bool first = true;
+        bool first = true, near[most] = {true};
         for (std::size_t i = 0; i < count; ++i) {
             if (!found[i].near_edge) return false;  // it counts in any case
             Relation relations[most_relations];
             const auto end = relations + relations_of(found[i], relations);
             const auto is = [&](Relation::Kind kind) { return [kind](const Relation& r) { return r.kind == kind; }; };
             if (std::any_of(relations, end, is(Relation::cancelled))) {
-                if (i == 0 || std::any_of(relations, end, [&](const Relation& r) { return r.kind == Relation::cancelled && face_of(r.by) == face_of(crossing); })) return false;
+                const auto by_own = [&](const Relation& r) { return r.kind == Relation::cancelled && face_of(r.by) == face_of(crossing); };
+                if (i == 0 || !near[i] || std::any_of(relations, end, by_own)) return false;
                 continue;
             }
             if (std::none_of(relations, end, is(Relation::replaced))) return i == 0;
@@ -77,6 +78,7 @@ public:
                 const bool known = std::any_of(found, found + count, [&](const Crossing& c) { return face_of(c) == face_of(r->by) && c.t == r->by.t; });
                 if (known) continue;
                 if (count == most) return true;
+                near[count] = near[i] && r->near;
                 found[count++] = r->by;
             }
         }
@@ -100,7 +102,9 @@ private:
         enum Kind { none, stands, replaced, cancelled } kind = none;
         int edge = -1;  // of the hit's, that the neighbour lies across; -1 where the surfaces are tangent
         Crossing by{};
+        bool near = false;  // that crossing is within a few bands
     };
+    static constexpr double vicinity = 4;  // in bands
     static constexpr int most_relations = 16;
 
     std::uint32_t face_of(const Crossing& crossing) const { return brep_.leaves_[crossing.leaf].face; }
@@ -198,7 +202,7 @@ private:
         const Neighbour there = crossing_with(face, leaf.face, other, hit, smooth ? 100 : 1e4);
         const bool alike = there.crossed && there.enters != hit.leaves;
         const bool met = there.crossed && there.crossing.located.place != Place::outside, strict = there.crossed && there.crossing.located.place == Place::inside;
-        relation.by = there.crossing;
+        relation.by = there.crossing, relation.near = there.near;
         if (smooth) {  // told twice
             relation.edge = -1;
             const bool first = strict != hit.strict ? strict : !there.crossing.near_edge || leaf.face < hit.face;
@@ -207,17 +211,18 @@ private:
         }
         // Inside of the other surface at the hit? The order of the two crossings tells, the same way for both of them, however near they are.
         const double blur = 64 * eps * (max_component(abs(hit.position)) + leaf.box.largest_coordinate());
-        if (!there.crossed && std::abs(beyond) <= blur) return {Relation::stands, relation.edge};
         const bool earlier = there.crossing.t != hit.t ? there.crossing.t < hit.t : leaf.face < hit.face;
         const bool within = there.crossed ? there.enters == earlier : beyond < 0;
-        if (within == (turn > 0)) relation.kind = Relation::stands;
-        else if (alike) relation.kind = met ? Relation::replaced : Relation::stands;
-        else relation.kind = strict && !there.crossing.near_edge ? Relation::stands : Relation::cancelled;  // that one stands for itself
+        // That it lies on the wrong side of a surface that it does not cross is no reason to leave out what lies inside the loops.
+        const bool in_doubt = !there.crossed && (hit.strict || std::abs(beyond) <= blur);
+        if (within == (turn > 0) || in_doubt) relation.kind = Relation::stands;
+        else if (alike) relation.kind = met || !there.near ? Relation::replaced : Relation::stands;
+        else relation.kind = strict && there.near && !there.crossing.near_edge ? Relation::stands : Relation::cancelled;  // that one stands for itself
         return relation;
     }
 
     struct Neighbour {
-        bool crossed = false, enters = false;
+        bool crossed = false, enters = false, near = false;
         Crossing crossing{};
     };
     // Where the line meets the other surface, on the face or not, next to the hit; not farther away than so many bands.
@@ -253,6 +258,7 @@ private:
         const Brep::Tangents there = brep_.tangents(brep_.leaves_[c.leaf], face, c.root, position);
         c.located = located_at(brep_.leaves_[c.leaf], face, c.root, position);
         c.near_edge = c.located.place != Place::inside || (c.located.near_edge && face.trimming.near_edge(c.located.at, metric_of(there.along_u, there.along_v)));
+        found.near = distance * length(ray_.direction) <= vicinity * hit.band;
         found.enters = dot(there.normal, ray_.direction) <= 0;
         return found;
     }
