@@ -68,7 +68,7 @@ private:
     Expected<void> add_analytic(const Face& face);
     Expected<void> add_patches(const Face& face, const PatchSurface& surface);
     std::optional<ShapeHit> meet_patch(std::uint32_t part, const TrimmedFace& face, const Ray& ray) const;
-    Trimming::Located locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position) const;
+    Trimming::Located locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position, Vec3 direction) const;
     SurfacePoint patch_surface(const Leaf& leaf, const TrimmedFace& face, Vec3 position) const;
 
     bool belongs(std::uint32_t part, const TrimmedFace& face, const Ray& ray, const Meeting& meeting) const;

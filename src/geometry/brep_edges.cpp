@@ -19,8 +19,6 @@ bool holds(const Bounds& box, Vec3 p) {
     return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y && p.z >= box.lower.z && p.z <= box.upper.z;
 }
 
-Metric metric_of(Vec3 along_u, Vec3 along_v) { return {dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)}; }
-
 }  // namespace
 
 Brep::Tangents Brep::tangents(const Leaf& leaf, const TrimmedFace& face, Point2 root, Vec3 position) const {
@@ -92,7 +90,7 @@ private:
         Vec3 outward[Trimming::most_near_edges];  // along the face and across its edges, away from the face; unit length, or zero
         Vec3 body[Trimming::most_near_edges];     // along the edge to its middle; unit length, or zero
         int edges;
-        double band;
+        double band, reach;  // reach: of what is near; more than the band where the ray grazes the face
         std::uint32_t face;
         bool strict;  // on the face's side
         bool leaves;  // the ray goes along with the normal
@@ -116,11 +114,11 @@ private:
         hit.t = crossing.t, hit.position = ray_.at(crossing.t), hit.face = leaf.face;
         const Brep::Tangents own = brep_.tangents(leaf, face, crossing.root, hit.position);
         Trimming::NearEdge edges[Trimming::most_near_edges];
-        hit.edges = face.trimming.near_edges(crossing.located.at, metric_of(own.along_u, own.along_v), edges);
+        hit.edges = face.trimming.near_edges(crossing.located.at, metric_seen_along(ray_.direction, own.along_u, own.along_v), metric_of(own.along_u, own.along_v), edges);
         hit.strict = crossing.located.place == Place::inside;
         hit.normal = own.normal;
         hit.leaves = dot(own.normal, ray_.direction) > 0;
-        hit.band = 0;
+        hit.band = hit.reach = 0;
         const auto in_space = [&](Point2 step) {
             const Vec3 v = own.along_u * step.u + own.along_v * step.v;
             const double size = length(v);
@@ -128,7 +126,7 @@ private:
         };
         for (int i = 0; i < hit.edges; ++i) {
             hit.outward[i] = in_space(edges[i].outward), hit.body[i] = in_space(edges[i].body);
-            hit.band = std::max(hit.band, edges[i].band);
+            hit.band = std::max(hit.band, edges[i].band), hit.reach = std::max({hit.reach, edges[i].band, edges[i].distance});
         }
         return hit;
     }
@@ -163,9 +161,18 @@ private:
         return count;
     }
 
+    // On the neighbour: as the ray sees its bands, or, next to the hit, with bands `wider` times as wide.
     Trimming::Located located_at(const Brep::Leaf& leaf, const Brep::TrimmedFace& face, Point2 root, Vec3 position) const {
-        if (face.patches != Brep::none) return brep_.locate_patch(leaf, face, {0, root.u, root.v}, position);
-        return face.trimming.locate(root, [&](Point2 p) { return face.surface.metric(p); });
+        if (face.patches != Brep::none) return brep_.locate_patch(leaf, face, {0, root.u, root.v}, position, ray_.direction);
+        return face.trimming.locate(root, [&](Point2 p) { return metric_seen_along(ray_.direction, face.surface.along_u(p), face.surface.along_v(p)); });
+    }
+    bool is_near(const Brep::Leaf& leaf, const Brep::TrimmedFace& face, Point2 root, Vec3 position, double wider) const {
+        const Brep::Tangents t = brep_.tangents(leaf, face, root, position);
+        const double scale = 1 / wider;
+        const Metric metric = metric_of(t.along_u * scale, t.along_v * scale);
+        if (face.patches == Brep::none) return face.trimming.locate(root, [&](Point2) { return metric; }).place != Place::outside;
+        const Point2 at = brep_.locate_patch(leaf, face, {0, root.u, root.v}, position, {}).at;
+        return face.trimming.locate(at, [&](Point2) { return metric; }).place != Place::outside;
     }
 
     // What another leaf near the hit has to say of it.
@@ -186,7 +193,7 @@ private:
             foot = {near.u, near.v};
             below = near.position;
         }
-        if (!(length(hit.position - below) <= 2 * hit.band) || located_at(leaf, face, foot, below).place == Place::outside) return {};
+        if (!(length(hit.position - below) <= 2 * hit.reach) || !is_near(leaf, face, foot, below, hit.reach / hit.band)) return {};
         const Vec3 normal = brep_.tangents(leaf, face, foot, below).normal;
         const double beyond = dot(hit.position - below, normal);
         Relation relation;
@@ -213,8 +220,8 @@ private:
         const double blur = 64 * eps * (max_component(abs(hit.position)) + leaf.box.largest_coordinate());
         const bool earlier = there.crossing.t != hit.t ? there.crossing.t < hit.t : leaf.face < hit.face;
         const bool within = there.crossed ? there.enters == earlier : beyond < 0;
-        // That it lies on the wrong side of a surface that it does not cross is no reason to leave out what lies inside the loops.
-        const bool in_doubt = !there.crossed && (hit.strict || std::abs(beyond) <= blur);
+        // That it lies on the wrong side of a surface where the ray does not meet the face is no reason to leave out what lies inside the loops.
+        const bool in_doubt = hit.strict ? !met : !there.crossed && std::abs(beyond) <= blur;
         if (within == (turn > 0) || in_doubt) relation.kind = Relation::stands;
         else if (alike) relation.kind = met || !there.near ? Relation::replaced : Relation::stands;
         else relation.kind = strict && there.near && !there.crossing.near_edge ? Relation::stands : Relation::cancelled;  // that one stands for itself
@@ -257,8 +264,8 @@ private:
         const Vec3 position = ray_.at(c.t);
         const Brep::Tangents there = brep_.tangents(brep_.leaves_[c.leaf], face, c.root, position);
         c.located = located_at(brep_.leaves_[c.leaf], face, c.root, position);
-        c.near_edge = c.located.place != Place::inside || (c.located.near_edge && face.trimming.near_edge(c.located.at, metric_of(there.along_u, there.along_v)));
-        found.near = distance * length(ray_.direction) <= vicinity * hit.band;
+        c.near_edge = c.located.place != Place::inside || (c.located.near_edge && face.trimming.near_edge(c.located.at, metric_seen_along(ray_.direction, there.along_u, there.along_v)));
+        found.near = distance * length(ray_.direction) <= vicinity * hit.reach;
         found.enters = dot(there.normal, ray_.direction) <= 0;
         return found;
     }
