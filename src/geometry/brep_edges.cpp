@@ -102,7 +102,7 @@ private:
         Crossing by{};
         bool near = false;  // that crossing is within a few bands
     };
-    static constexpr double vicinity = 4;  // in bands
+    static constexpr double vicinity = 32;  // in bands
     static constexpr int most_relations = 16;
 
     std::uint32_t face_of(const Crossing& crossing) const { return brep_.leaves_[crossing.leaf].face; }
@@ -214,6 +214,8 @@ private:
             relation.edge = -1;
             const bool first = strict != hit.strict ? strict : !there.crossing.near_edge || leaf.face < hit.face;
             relation.kind = met && alike && first ? Relation::replaced : Relation::stands;
+            // Back to back, at a cusp: what both have beyond their edge is nothing.
+            if (dot(normal, hit.normal) < 0 && met && !alike && !strict && !hit.strict) relation.kind = Relation::cancelled;
             return relation;
         }
         // Inside of the other surface at the hit? The order of the two crossings tells, the same way for both of them, however near they are.

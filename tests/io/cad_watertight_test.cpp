@@ -32,7 +32,9 @@ protected:
         ReadOptions options;
         options.cache = false;
         auto model = read_cad_model(asset("cad/" + file), options);
-        if (model) EXPECT_TRUE(cache.keep(asset("cad/" + file), *model));
+        if (model) {
+            EXPECT_TRUE(cache.keep(asset("cad/" + file), *model));
+        }
         return model;
     }
 
@@ -97,7 +99,9 @@ TEST_F(CadWatertight, NoRayGetsThroughAnEdge) {
         std::printf("| %s | %zu of %zu | %zu | %zu | %zu | %.0f | %.0f |\n", file.c_str(), tally.closed, tally.shells, tally.rays, tally.escaped, tally.lost,
                     per_million(tally.inward), per_million(tally.odd));
         std::fflush(stdout);
-        if (unmatched == 0) EXPECT_EQ(tally.closed, tally.shells) << "a shell whose edges all have two faces lets rays at random through";
+        if (unmatched == 0) {
+            EXPECT_EQ(tally.closed, tally.shells) << "a shell whose edges all have two faces lets rays at random through";
+        }
         EXPECT_EQ(tally.escaped, 0u);
         EXPECT_EQ(tally.lost, 0u);
         if (!which) {
