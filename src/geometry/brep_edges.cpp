@@ -158,6 +158,15 @@ private:
         for (int i = 0; i < count; ++i) {
             if (forgiven[i]) relations[i].kind = Relation::stands;
         }
+        // Of several faces across one edge some say one thing, others another: what lies inside the loops is not cancelled then.
+        const auto contradicted = [&](const Relation& one) {
+            return std::any_of(relations, relations + count, [&](const Relation& r) {
+                return r.edge == one.edge && r.kind != Relation::cancelled && face_of(r.by) != face_of(one.by);
+            });
+        };
+        for (int i = 0; i < count; ++i) {
+            if (hit.strict && relations[i].kind == Relation::cancelled && contradicted(relations[i])) relations[i].kind = Relation::stands;
+        }
         return count;
     }
 
