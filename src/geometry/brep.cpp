@@ -78,7 +78,7 @@ Expected<void> Brep::add_analytic(const Face& face) {
     Bounds box = surface->kind() == AnalyticSurface::Kind::plane ? plane_bounds(*surface, *trimming) : surface->bounds(trimming->box());
     if (!box.bounded() || box.largest_coordinate() > 1e30) return failure(ErrorKind::input, {"", "", "a face without bounds", ""});
     surface->set_center(box.center());
-    box = grown(box, 2 * grazing_reach * trimming->widest_band() + 4 * surface->error(box));
+    box = grown(box, grazing_reach * trimming->widest_band() + 4 * surface->error(box));
     const auto index = static_cast<std::uint32_t>(faces_.size());
     faces_.push_back({std::move(*surface), none, face.reversed, face.slot, face.shell, std::move(*trimming)});
     leaves_.push_back({box, index, 0});

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-bool holds(const Bounds& box, Vec3 p) {
-    return p.x >= box.lower.x && p.x <= box.upper.x && p.y >= box.lower.y && p.y <= box.upper.y && p.z >= box.lower.z && p.z <= box.upper.z;
+bool comes_near(const Bounds& box, Vec3 p, double within) {
+    const Vec3 off = max(box.lower - p, p - box.upper);
+    return off.x <= within && off.y <= within && off.z <= within;
 }
 
 }  // namespace
@@ -138,10 +139,10 @@ private:
         const auto leaves = static_cast<std::uint32_t>(brep_.leaves_.size());
         const std::uint32_t shell = brep_.faces_[hit.face].shell;
         for (std::uint32_t clump = 0; clump < brep_.clumps_.size(); ++clump) {
-            if (!holds(brep_.clumps_[clump], hit.position)) continue;
+            if (!comes_near(brep_.clumps_[clump], hit.position, 2 * hit.reach)) continue;
             for (std::uint32_t other = clump * Brep::clump_size; other < std::min((clump + 1) * Brep::clump_size, leaves); ++other) {
                 const Brep::Leaf& leaf = brep_.leaves_[other];
-                if (leaf.face == hit.face || brep_.faces_[leaf.face].shell != shell || !holds(leaf.box, hit.position)) continue;
+                if (leaf.face == hit.face || brep_.faces_[leaf.face].shell != shell || !comes_near(leaf.box, hit.position, 2 * hit.reach)) continue;
                 const Relation relation = relation_of(hit, other);
                 if (relation.kind != Relation::none && count < most_relations) relations[count++] = relation;
             }

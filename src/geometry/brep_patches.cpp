@@ -85,13 +85,8 @@ Expected<void> Brep::add_patches(const Face& face, const PatchSurface& surface) 
     };
     Patches patches{surface, PatchLeaves(surface.patches, 0.5 * grazing_reach * trimming->widest_band(), outside)};
     const auto index = static_cast<std::uint32_t>(faces_.size()), set = static_cast<std::uint32_t>(patches_.size());
-    const double margin = 2 * grazing_reach * trimming->widest_band();
     const std::size_t first = leaves_.size();
-    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) {
-        const Bounds box = patches.leaves.bounds(leaf);
-        const Vec3 grow = Vec3{1, 1, 1} * margin;
-        leaves_.push_back({{box.lower - grow, box.upper + grow}, index, leaf});
-    }
+    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) leaves_.push_back({patches.leaves.bounds(leaf), index, leaf});
     if (leaves_.size() == first) return failure(ErrorKind::input, {"", "", "loops that lie beside the surface", ""});
     faces_.push_back({{}, set, face.reversed, face.slot, face.shell, std::move(*trimming)});
     patches_.push_back(std::move(patches));
