@@ -198,15 +198,18 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     rays_.clear();
     shadow_nodes_.clear();
     for (PointLanes& p : points_) {
+        unsigned untried = 0;
         for (int i = 0; i < p.count; ++i) {
-            if (!(p.lit >> i & 1)) tile_.shares[std::size_t{p.node[i]} * lights + light] = Share::behind;
+            Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
+            if (!(p.lit >> i & 1)) share = Share::behind;
+            else if (share == Share::untried) untried |= 1u << i;
         }
-        if (!p.lit) continue;
+        if (!untried) continue;
         alignas(64) Ray rays[lane_count];
         // Short of a surface that the lamp lies in.
         make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
-        tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(p.lit));
-        for (unsigned rest = p.lit; rest; rest &= rest - 1) {
+        tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(untried));
+        for (unsigned rest = untried; rest; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
             if (settings_.shadow_cache && occluded_as_last(light, tile_.nodes[p.node[i]].depth, rays[i])) {
                 tile_.shares[std::size_t{p.node[i]} * lights + light] = Share::blocked;
@@ -248,11 +251,12 @@ void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& p
     spawn_from_points(pending);
 }
 
-void Growth::spawn_from_points(std::vector<Pending>& pending) const {
+void Growth::spawn_from_points(std::vector<Pending>& pending) {
     for (const PointLanes& p : points_) {
         const Lanes cosines = lesser(greater(dot(p.normal, p.viewer), Lanes{}), Lanes{} + 1.0);
         for (int i = 0; i < p.count; ++i) {
-            const Node& node = tile_.nodes[p.node[i]];
+            Node& node = tile_.nodes[p.node[i]];
+            node.spawned = true;
             const Lobes& lobes = world_.lobes[node.material];
             if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
             const ChildWeights weights = child_weights(lobes, cosines[i], node.inside);

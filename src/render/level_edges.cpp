@@ -59,8 +59,6 @@ std::vector<Place> quads_at_depth(const Tile& tile, int depth) {
     return places;
 }
 
-std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
-
 // The five points that split a quad of this size: middle of the top, left, centre, right, bottom.
 std::array<LatticePoint, 5> split_points(LatticePoint at, std::uint32_t size) {
     const std::uint32_t half = size / 2;
@@ -137,7 +135,10 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
     }
     tile.todo.clear();
     tile.growing = {};
-    if (stage.parameter == growth.settings().supersampling) tile.subpixel_roots = {};
+    if (stage.parameter == growth.settings().supersampling) {
+        tile.subpixel_roots = {};
+        tile.quads_before = {};
+    }
     return true;
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "parallel/pool.h"
 #include "render/describe.h"
 #include "render/film.h"
 #include "render/level.h"
+#include "render/revision.h"
 #include "render/scheduler.h"
 
 namespace crescente::render {
@@ -28,13 +30,17 @@ struct Session::State {
     std::atomic<std::uint64_t> dropped_bytes = 0, dropped_nodes = 0;  // of finished tiles that were not kept
     std::mutex spare_mutex;
     std::vector<std::vector<Node>> spare_nodes;  // memory of dropped tiles, for the next ones
+    RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
+    TestCounts past_tests;
 
     int tiles_across() const { return (width() + tile_size() - 1) / tile_size(); }
     int width() const { return world->scene.settings.width; }
     int height() const { return world->scene.settings.height; }
     int tile_size() const { return world->scene.settings.tile; }
 
-    void plan();
+    void plan_stages();
+    void cut_tiles();
+    int every_corner() const;  // the stage that sends a camera ray through every corner that has none
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
     Tile regrown(const Tile& tile) const;
     static std::vector<Node> drop(Tile& tile);  // gives the memory of its nodes
@@ -56,8 +62,10 @@ Tile blank_tile(const Tile& place) {
 
 }  // namespace
 
-void Session::State::plan() {
+void Session::State::plan_stages() {
     const scene::Settings& settings = world->scene.settings;
+    stages.clear();
+    level_of_stage.clear();
     for (const LevelKind& kind : levels()) {
         if (kind.level > settings.level) break;
         for (const Stage& stage : kind.stages(settings)) {
@@ -67,6 +75,16 @@ void Session::State::plan() {
     }
     level_seconds.resize(levels().size());
     level_rays.resize(levels().size());
+}
+
+int Session::State::every_corner() const {
+    const auto last = std::find_if(level_of_stage.begin(), level_of_stage.end(), [](scene::Level level) { return level != scene::Level::visible; });
+    return static_cast<int>(last - level_of_stage.begin()) - 1;
+}
+
+void Session::State::cut_tiles() {
+    for (const Tile& tile : tiles) past_rays += tile.rays, past_tests += tile.tests;
+    tiles.clear();
     for (int y = 0; y < height(); y += tile_size()) {
         for (int x = 0; x < width(); x += tile_size()) {
             Tile& tile = tiles.emplace_back();
@@ -87,7 +105,7 @@ bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadlin
         const Stage& stage = stages[static_cast<std::size_t>(tile.stage)];
         if (!kind_of(stage.level).advance(growth, stage, deadline)) return false;
         tile.cursor = 0;
-        ++tile.stage;
+        if (++tile.stage == 1 && !tile.shows_pixels()) tile.pixels = {};  // of before an edit that left no tree
         if (tile.stage < until && deadline.passed()) return false;
     }
     return true;
@@ -164,7 +182,8 @@ Expected<Session> Session::open(scene::Scene scene) {
     auto world = world_of(std::move(scene));
     if (!world) return tl::unexpected(world.error());
     auto state = std::make_unique<State>(std::move(*world), threads);
-    state->plan();
+    state->plan_stages();
+    state->cut_tiles();
     state->build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return Session(std::move(state));
 }
@@ -232,6 +251,45 @@ Progress Session::advance(const Deadline& deadline) {
     return s.progress(states);
 }
 
+Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::string& file) {
+    State& s = *state_;
+    const auto start = Clock::now();
+    std::vector<scene::ShapeId> reshaped;
+    for (const scene::Edit& edit : edits) {
+        if (const auto* shape = std::get_if<scene::SetShape>(&edit)) reshaped.push_back(shape->shape);
+    }
+    const scene::Settings settings = s.world->scene.settings;
+    auto undo = scene::apply(std::move(edits), s.world->scene, file);
+    if (!undo) return tl::unexpected(undo.error());
+
+    EditReport report{std::move(*undo)};
+    World& before = *s.world;
+    auto now = world_without_accelerator(std::move(before.scene));
+    const Change change = change_between(before, settings, *now, reshaped);
+    const accel::Accelerator* accelerator = before.accelerator.get();
+    if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings)); !given) {
+        before.scene = std::move(now->scene);
+        (void)scene::apply(std::move(report.undo), before.scene);
+        return tl::unexpected(given.error());
+    }
+    const std::unique_ptr<World> old = std::exchange(s.world, std::move(now));
+    report.accelerator_kept = s.world->accelerator.get() == accelerator;
+    if (settings.threads != s.world->scene.settings.threads) s.pool = parallel::Pool(s.world->scene.settings.threads);
+    if (change.stages) s.plan_stages();
+    report.began_anew = change.anew;
+    if (settings.width != s.width() || settings.height != s.height() || settings.tile != s.tile_size()) {
+        s.cut_tiles();
+        report.tiles = s.tiles.size();
+    } else {
+        std::atomic<std::size_t> tiles = 0;
+        const int repeated = s.every_corner();
+        s.pool.for_each(s.tiles.size(), [&](std::size_t i) { tiles += revise(s.tiles[i], *old, *s.world, change, repeated); });
+        report.tiles = tiles;
+    }
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    return report;
+}
+
 scene::Image Session::picture(bool all_layers) const {
     const State& s = *state_;
     scene::Image image = blank_image(s.width(), s.height(), all_layers);
@@ -249,6 +307,8 @@ scene::Image Session::picture(bool all_layers) const {
 Stats Session::stats() const {
     const State& s = *state_;
     Stats stats;
+    stats.rays = s.past_rays;
+    stats.tests = s.past_tests;
     for (const Tile& tile : s.tiles) {
         stats.rays += tile.rays;
         stats.tests += tile.tests;

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "render/counts.h"
 #include "render/deadline.h"
+#include "scene/edit.h"
 #include "scene/image.h"
 #include "scene/scene.h"
 
@@ -41,6 +42,15 @@ struct Progress {
     bool first_picture = false;  // the coarsest grid covers the whole frame: picture() is whole
 };
 
+// What an edit did to the trees, before any work is done anew.
+struct EditReport {
+    std::vector<scene::Edit> undo;   // edits that bring the scene back
+    std::size_t tiles = 0;           // whose picture may change
+    bool began_anew = false;         // no tree was kept
+    bool accelerator_kept = true;
+    double seconds = 0;
+};
+
 class Session {
 public:
     // Builds the acceleration structure. The scene must be valid and have a camera. Errors: a setting that this build
@@ -52,6 +62,10 @@ public:
 
     // Does the most influential pending work until the deadline.
     Progress advance(const Deadline& deadline);
+
+    // Changes the scene; what it does not touch is kept, and advance() does the rest. The converged picture is that of a fresh session of the edited
+    // scene, to the bit. Several edits are one. Errors (input, resource): every problem, with `file` and its place; nothing has changed then.
+    Expected<EditReport> edit(std::vector<scene::Edit> edits, const std::string& file = {});
 
     // The picture so far, whole at any moment: layer "color" only, or with all layers (see scene/image.h).
     scene::Image picture(bool all_layers = false) const;
