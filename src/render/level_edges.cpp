@@ -66,12 +66,12 @@ std::array<LatticePoint, 5> split_points(LatticePoint at, std::uint32_t size) {
 }
 
 bool splits_hold(const std::vector<Quad>& quads, const Quad& quad, const std::vector<Rgb>& radiance, int depth, const scene::Settings& settings) {
-    if (depth == settings.supersampling) return quad.parts == no_node;
     std::array<Rgb, 4> corners;
     for (int k = 0; k < 4; ++k) {
         if (quad.corners[k] == no_node) return false;
         corners[k] = perceived(radiance[quad.corners[k]]);
     }
+    if (depth == settings.supersampling) return quad.parts == no_node;
     if (differ(corners, static_cast<float>(settings.contrast)) != (quad.parts != no_node)) return false;
     for (std::uint32_t k = 0; k < 4 && quad.parts != no_node; ++k) {
         if (!splits_hold(quads, quads[quad.parts + k], radiance, depth + 1, settings)) return false;

@@ -57,8 +57,11 @@ public:
         if (rays_may_end_elsewhere || change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
             update_nodes();
         }
-        std::move(tile_.growing.begin(), tile_.growing.end(), std::back_inserter(tile_.pending));
-        tile_.growing.clear();
+        if (!tile_.growing.empty()) {  // stopped amid splitting, which is then begun again
+            std::move(tile_.growing.begin(), tile_.growing.end(), std::back_inserter(tile_.pending));
+            tile_.growing.clear();
+            touched_ = true;
+        }
         if (lost_any_ || spawns_again_) respawn();
         update_shares();
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
@@ -362,7 +365,8 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const auto shows = [&](const Pending& p) { return p.influence > settings.threshold; };
 
     int stage = static_cast<int>(level_of_stage.size());
-    if (tile.lit && !untried && (tile.stage > shadows || settings.level == scene::Level::visible)) light_again(tile, world);
+    // Later stages begin with all nodes lit; where the picture has no shadows no stage lights what is there.
+    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) light_again(tile, world);
     else stage = std::min(stage, shadows);
     if (std::any_of(tile.corners.begin(), tile.corners.end(), is_missing)) stage = std::min(stage, all_roots(settings));
     if (std::any_of(tile.pending.begin(), tile.pending.end(), shows)) stage = std::min(stage, reflections);
