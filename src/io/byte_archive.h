@@ -74,8 +74,8 @@ void array(Archive& a, std::vector<T>& v) {  // of plain values
     a.size(v, sizeof(T));
     if (a.good()) a.raw(v.data(), v.size());
 }
-template <class Archive, class T, class Each>
-void list(Archive& a, std::vector<T>& v, std::size_t least, Each&& each) {  // an element takes at least `least` bytes
+template <class Archive, class List, class Each>
+void list(Archive& a, List& v, std::size_t least, Each&& each) {  // an element takes at least `least` bytes
     a.size(v, least);
     for (std::size_t i = 0; i < v.size() && a.good(); ++i) each(v[i]);
 }

@@ -75,11 +75,11 @@ Expected<void> set_model(scene::NamedShape& shape, const Assignment& parts, cons
 Expected<void> set_model(scene::Light& light, const Assignment& parts, const Measure& measure) { return set_field(light, parts, measure); }
 
 // All things of the name; all or none are changed.
-template <class Thing>
-Expected<void> set_named(std::vector<Thing>& things, const Assignment& parts, const Measure& measure) {
+template <class Things>
+Expected<void> set_named(Things& things, const Assignment& parts, const Measure& measure) {
     const std::string what{parts.what};
     if (!parts.has_name) return wrong(parts.whole, "which " + what + " is meant?", "write " + what + ".name.field=value");
-    std::vector<std::pair<std::size_t, Thing>> changed;
+    std::vector<std::pair<std::size_t, typename Things::value_type>> changed;
     for (std::size_t i = 0; i < things.size(); ++i) {
         if (things[i].name.empty() ? std::to_string(i) != parts.name : things[i].name != parts.name) continue;
         changed.emplace_back(i, things[i]);

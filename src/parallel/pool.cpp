@@ -32,6 +32,7 @@ Pool::Pool(int threads) {
     arena_ = std::make_unique<Arena>(Arena{count, tbb::task_arena(count)});
 }
 Pool::Pool(Pool&&) noexcept = default;
+Pool& Pool::operator=(Pool&&) noexcept = default;
 Pool::~Pool() = default;
 
 int Pool::threads() const { return arena_->threads; }

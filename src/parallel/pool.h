@@ -12,6 +12,7 @@ class Pool {
 public:
     explicit Pool(int threads);  // 0: one for each core
     Pool(Pool&&) noexcept;
+    Pool& operator=(Pool&&) noexcept;
     ~Pool();
 
     int threads() const;

@@ -18,6 +18,7 @@ public:
     // A place of the viewer from which a camera ray comes to the point.
     Vec3 viewer_of(Vec3 point) const { return orthographic_ ? point - forward_ : position_; }
 
+    bool operator==(const CameraRays&) const = default;
     Vec3 position() const { return position_; }
     Vec3 forward() const { return forward_; }
     int height() const { return height_; }

@@ -1,18 +1,31 @@
 #include "render/film.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 namespace crescente::render {
 namespace {
 
-Rgb mean_of(const Tile& tile, const std::vector<Rgb>& radiance, const Quad& quad) {
+// Nothing while a corner is missing.
+std::optional<Rgb> mean_of(const std::vector<Rgb>& radiance, const std::array<std::uint32_t, 4>& corners) {
     Rgb sum;
-    if (quad.parts == no_node) {
-        for (const std::uint32_t root : quad.corners) sum += radiance[root];
-    } else {
-        for (std::uint32_t k = 0; k < 4; ++k) sum += mean_of(tile, radiance, tile.quads[quad.parts + k]);
+    for (const std::uint32_t root : corners) {
+        if (root == no_node) return {};
+        sum += radiance[root];
     }
     return sum * 0.25f;
+}
+
+// Of the parts, or while these are not whole, of the quad's own corners.
+std::optional<Rgb> mean_of(const std::vector<Quad>& quads, const std::vector<Rgb>& radiance, const Quad& quad) {
+    Rgb sum;
+    for (std::uint32_t k = 0; quad.parts != no_node && k < 4; ++k) {
+        const auto part = mean_of(quads, radiance, quads[quad.parts + k]);
+        if (!part) return mean_of(radiance, quad.corners);
+        sum += *part;
+    }
+    return quad.parts != no_node ? sum * 0.25f : mean_of(radiance, quad.corners);
 }
 
 std::uint32_t samples_in(const Tile& tile, const Quad& quad) {
@@ -60,20 +73,19 @@ std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance,
 std::vector<Rgb> develop(const Tile& tile) {
     if (tile.shows_pixels()) return tile.pixels;
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
-    const int step = tile.quads.empty() ? whole_grid(tile) : 1;
-    if (step == 0) return std::vector<Rgb>(count);
+    const bool edited = !tile.pixels.empty();  // what is not known anew is still shown as it was
+    const std::vector<Quad>& quads = tile.quads_before.empty() ? tile.quads : tile.quads_before;
+    const int step = !quads.empty() || (edited && !tile.corners.empty()) ? 1 : whole_grid(tile);
+    if (step == 0) return edited ? tile.pixels : std::vector<Rgb>(count);
     const std::vector<Rgb> radiance = radiances(tile);
     if (step > 1) return interpolate(tile, radiance, step);
     std::vector<Rgb> pixels;
     pixels.reserve(count);
-    if (!tile.quads.empty()) {
-        for (std::size_t i = 0; i < count; ++i) pixels.push_back(mean_of(tile, radiance, tile.quads[i]));
-        return pixels;
-    }
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
-            pixels.push_back((radiance[tile.corner(x, y)] + radiance[tile.corner(x + 1, y)] + radiance[tile.corner(x, y + 1)] +
-                              radiance[tile.corner(x + 1, y + 1)]) * 0.25f);
+            const std::array corners{tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)};
+            const auto pixel = quads.empty() ? mean_of(radiance, corners) : mean_of(quads, radiance, quads[pixels.size()]);
+            pixels.push_back(pixel ? *pixel : edited ? tile.pixels[pixels.size()] : Rgb{});
         }
     }
     return pixels;

@@ -12,7 +12,7 @@ std::size_t sum_columns(const Tile& tile, Length length) {
         using Value = typename std::remove_cvref_t<decltype(map)>::value_type;
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
-    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.corners) + vector_bytes(tile.pending) + vector_bytes(tile.quads) +
+    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.corners) + vector_bytes(tile.pending) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) +
            vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
@@ -35,8 +35,11 @@ void Tile::trim() {
 }
 
 Rgb influence(const Tile& tile, std::uint32_t node) {
-    Rgb product{1, 1, 1};
-    for (std::uint32_t i = node; i != no_node; i = tile.nodes[i].parent) product *= tile.nodes[i].weight;
+    std::array<std::uint32_t, 256> way;  // upwards: as many as Node::depth can count
+    std::size_t steps = 0;
+    for (std::uint32_t i = node; i != no_node; i = tile.nodes[i].parent) way[steps++] = i;
+    Rgb product = tile.nodes[way[--steps]].weight;
+    while (steps > 0) product *= tile.nodes[way[--steps]].weight;
     return product;
 }
 

@@ -34,9 +34,11 @@ struct Node {
     Rgb weight{1, 1, 1};             // of this node's radiance in the parent's; of a root's in its pixel
     Rgb local;                       // radiance towards the viewer, without the children
     std::uint8_t depth = 0;          // bounces
-    bool inside = false;             // met from inside
-    bool crossed = false;            // the ray came through the parent's surface, not back from it
-    bool shadowed = false;           // lights have been tried
+    bool inside : 1 = false;         // met from inside
+    bool crossed : 1 = false;        // the ray came through the parent's surface, not back from it
+    bool shadowed : 1 = false;       // lights have been tried, and local counts them
+    bool spawned : 1 = false;        // its rays are children or in Tile::pending
+    bool hidden : 1 = false;         // kept, but below the threshold or the depth bound since an edit: no part of the picture
 
     bool left_scene() const { return instance == no_node; }
 };
@@ -50,6 +52,8 @@ enum class Share : std::uint8_t {
     clear,
     filtered,  // the RGB share is in Tile::filtered
 };
+
+constexpr bool may_arrive(Share share) { return share != Share::behind && share != Share::blocked; }
 
 // How a ray goes on from a surface.
 enum class Way : std::uint8_t {
@@ -84,15 +88,22 @@ struct Tile {
     std::vector<Pending> pending;
     std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end
     std::vector<Quad> quads;                               // the first width x height are the pixels; empty before the first split
+    std::vector<Quad> quads_before;                        // those of the picture before an edit, shown until the new ones are complete
     std::unordered_map<std::uint64_t, std::uint32_t> subpixel_roots;  // by lattice point; only while pixels are split
 
     int stage = 0;           // stages of growth that are complete
     std::size_t cursor = 0;  // work of the next stage that is done
     std::vector<std::uint32_t> todo;  // what the next stage works through: its meaning is the stage's
-    std::vector<Rgb> pixels;  // what the trees gave at an earlier time: before they were dropped, or left unlit
+    std::vector<Rgb> pixels;  // what the trees gave at an earlier time: before they were dropped, left unlit or edited
     int pixels_stage = -1;    // stages that were complete then; -1: never
     bool going_on = false;    // dropped before it was finished, and being grown anew to the end
     bool lit = true;          // false: some nodes wait for their light
+
+    std::uint64_t materials = 0;  // bit i: some node may be of a material whose index is i modulo 64
+    std::uint64_t revision = 0;  // edits of the session that the trees know
+    bool unsettled = false;      // an edit touched the trees, and what is missing in them has not been looked for
+    bool untried = false;        // with that: ways of lights to nodes are not known any more
+    bool split_anew = false;     // with that: splits of pixels are not known any more, or asked for otherwise
 
     RayCounts rays;
     TestCounts tests;
@@ -106,17 +117,18 @@ struct Tile {
     std::uint32_t corner(int x, int y) const { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
 };
 
-// Calls visit(child, way) for the children of a node, in the order in which their light is added.
+// Calls visit(child, way) for the children of a node that are not hidden, in the order in which their light is added.
 template <class Visit>
 void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
     const Node& parent = tile.nodes[node];
-    if (parent.reflected != no_node) visit(parent.reflected, Way::reflected);
-    if (parent.refracted != no_node) visit(parent.refracted, Way::refracted);
+    if (parent.reflected != no_node && !tile.nodes[parent.reflected].hidden) visit(parent.reflected, Way::reflected);
+    if (parent.refracted != no_node && !tile.nodes[parent.refracted].hidden) visit(parent.refracted, Way::refracted);
     if (tile.straight.empty()) return;
-    if (const auto child = tile.straight.find(node); child != tile.straight.end()) visit(child->second, Way::straight);
+    const auto child = tile.straight.find(node);
+    if (child != tile.straight.end() && !tile.nodes[child->second].hidden) visit(child->second, Way::straight);
 }
 
-// The product of the weights from the pixel down to the node.
+// The product of the weights from the pixel down to the node, taken in this order.
 Rgb influence(const Tile& tile, std::uint32_t node);
 
 // Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera.

@@ -102,6 +102,7 @@ void Growth::append() {
             node.instance = hit.instance;
             node.primitive = hit.primitive;
             node.material = at.material[i];
+            tile_.materials |= std::uint64_t{1} << node.material % 64;
             if (world_.absorbs) node.weight *= transmittance(world_, tile_, static_cast<std::uint32_t>(first + block + i), hit.t);
         }
     }
@@ -156,9 +157,12 @@ void Growth::light_points(bool shadows, Coherence coherence) {
         const Light& light = world_.lights[l];
         if (is_black(light.color())) continue;
         for (PointLanes& p : points_) {
+            p.lit = 0;
+            for (int i = 0; i < p.count; ++i) p.lit |= may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + l]) ? 1u << i : 0u;
+            if (!p.lit) continue;
             p.reach = light.reach(p.position);
             p.cosine = dot(p.normal, p.reach.to_light);
-            p.lit = bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0)) & ((1u << p.count) - 1);
+            p.lit &= bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0));
         }
         if (shadows && light.casts_shadows()) trace_shadows(l, coherence);
         for (PointLanes& p : points_) {
@@ -166,7 +170,7 @@ void Growth::light_points(bool shadows, Coherence coherence) {
                 const int i = __builtin_ctz(rest);
                 const std::size_t key = std::size_t{p.node[i]} * lights + l;
                 const Share share = tile_.shares[key];
-                if (share == Share::blocked) continue;
+                if (!may_arrive(share)) continue;
                 Rgb strength = light.color() * static_cast<float>(p.reach.factor[i]);
                 if (share == Share::filtered) strength *= tile_.filtered.at(key);
                 p.sum[i] += strength * reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i],
@@ -198,15 +202,18 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     rays_.clear();
     shadow_nodes_.clear();
     for (PointLanes& p : points_) {
+        unsigned untried = 0;
         for (int i = 0; i < p.count; ++i) {
-            if (!(p.lit >> i & 1)) tile_.shares[std::size_t{p.node[i]} * lights + light] = Share::behind;
+            Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
+            if (!(p.lit >> i & 1) && may_arrive(share)) share = Share::behind;
+            else if (share == Share::untried) untried |= 1u << i;
         }
-        if (!p.lit) continue;
+        if (!untried) continue;
         alignas(64) Ray rays[lane_count];
         // Short of a surface that the lamp lies in.
         make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
-        tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(p.lit));
-        for (unsigned rest = p.lit; rest; rest &= rest - 1) {
+        tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(untried));
+        for (unsigned rest = untried; rest; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
             if (settings_.shadow_cache && occluded_as_last(light, tile_.nodes[p.node[i]].depth, rays[i])) {
                 tile_.shares[std::size_t{p.node[i]} * lights + light] = Share::blocked;
@@ -248,11 +255,12 @@ void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& p
     spawn_from_points(pending);
 }
 
-void Growth::spawn_from_points(std::vector<Pending>& pending) const {
+void Growth::spawn_from_points(std::vector<Pending>& pending) {
     for (const PointLanes& p : points_) {
         const Lanes cosines = lesser(greater(dot(p.normal, p.viewer), Lanes{}), Lanes{} + 1.0);
         for (int i = 0; i < p.count; ++i) {
-            const Node& node = tile_.nodes[p.node[i]];
+            Node& node = tile_.nodes[p.node[i]];
+            node.spawned = true;
             const Lobes& lobes = world_.lobes[node.material];
             if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
             const ChildWeights weights = child_weights(lobes, cosines[i], node.inside);

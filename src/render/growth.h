@@ -17,6 +17,10 @@ struct LatticePoint {
 };
 inline constexpr int subpixel_bits = 6;  // more than the most splits that the settings allow
 
+// What Tile::subpixel_roots goes by.
+constexpr std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
+constexpr LatticePoint point_of(std::uint64_t key) { return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}; }
+
 // Work is cut into chunks of this many rays, between which a deadline is looked at.
 inline constexpr std::size_t chunk_size = 256;
 
@@ -34,10 +38,10 @@ public:
     // empty, lists for each point four roots whose objects are tried first (coherent sub-pixel rays).
     std::uint32_t add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first = {});
 
-    // Computes the local light of nodes; with shadows, the way of every light to them is traced first.
+    // Computes the local light of nodes; with shadows, the ways of lights to them that are not yet known are traced first.
     void light(std::span<const std::uint32_t> nodes, bool shadows, accel::Coherence coherence);
 
-    // Appends to `pending` the rays that nodes spawn, if the depth bound lets them.
+    // Appends to `pending` the rays that nodes spawn, if the depth bound lets them. Node after node, in the order of Way.
     void spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending);
 
     // Traces pending rays into child nodes with their light, and appends the rays that these spawn to `next`.
@@ -70,7 +74,7 @@ private:
     void append();
     void gather(std::span<const std::uint32_t> nodes);
     void light_points(bool shadows, accel::Coherence coherence);
-    void spawn_from_points(std::vector<Pending>& pending) const;
+    void spawn_from_points(std::vector<Pending>& pending);
     bool occluded_as_last(std::size_t light, std::uint8_t depth, const geometry::Ray& ray);
     void trace_shadows(std::size_t light, accel::Coherence coherence);
 

@@ -59,15 +59,38 @@ std::vector<Place> quads_at_depth(const Tile& tile, int depth) {
     return places;
 }
 
-std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
-
 // The five points that split a quad of this size: middle of the top, left, centre, right, bottom.
 std::array<LatticePoint, 5> split_points(LatticePoint at, std::uint32_t size) {
     const std::uint32_t half = size / 2;
     return {{{at.x + half, at.y}, {at.x, at.y + half}, {at.x + half, at.y + half}, {at.x + size, at.y + half}, {at.x + half, at.y + size}}};
 }
 
+void keep_roots_of_parts(const std::vector<Quad>& quads, const Quad& quad, LatticePoint at, std::uint32_t size, Tile& tile) {
+    if (quad.parts == no_node) return;
+    const std::uint32_t half = size / 2;
+    const auto points = split_points(at, size);
+    const auto root = [&](std::uint32_t part, std::uint32_t corner) { return quads[quad.parts + part].corners[corner]; };
+    const std::array roots{root(0, 1), root(0, 2), root(0, 3), root(1, 3), root(2, 3)};
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        if (roots[k] != no_node) tile.subpixel_roots.emplace(key_of(points[k]), roots[k]);
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) keep_roots_of_parts(quads, quads[quad.parts + k], {at.x + (k & 1 ? half : 0), at.y + (k & 2 ? half : 0)}, half, tile);
+}
+
+void keep_roots(const std::vector<Quad>& quads, Tile& tile) {
+    if (quads.empty()) return;
+    for (const Place& place : quads_at_depth(tile, 0)) keep_roots_of_parts(quads, quads[place.quad], place.at, 1u << subpixel_bits, tile);
+}
+
 }  // namespace
+
+void unsplit(Tile& tile, const scene::Settings& settings) {
+    const bool splits = settings.supersampling > 0 && settings.level == scene::Level::edges;
+    if (splits) keep_roots(tile.quads, tile), keep_roots(tile.quads_before, tile);
+    if (!tile.quads.empty()) tile.quads_before = std::move(tile.quads);
+    tile.quads = {};
+    if (!splits) tile.quads_before = {}, tile.subpixel_roots = {};
+}
 
 std::vector<Stage> edges_stages(const scene::Settings& settings) {
     std::vector<Stage> stages;
@@ -86,10 +109,15 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         const std::vector<Rgb> radiance = radiances(tile);
         tile.todo.clear();
         for (std::uint32_t i = 0; i < places.size(); ++i) {
+            Quad& quad = tile.quads[places[i].quad];
             std::array<Rgb, 4> corners;
-            for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[tile.quads[places[i].quad].corners[k]]);
-            if (differ(corners, static_cast<float>(growth.settings().contrast))) tile.todo.push_back(i);
+            for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[quad.corners[k]]);
+            const bool split = differ(corners, static_cast<float>(growth.settings().contrast));
+            if (!split) quad.parts = no_node;  // of before an edit
+            else if (quad.parts == no_node) tile.todo.push_back(i);
         }
+        // Corners that are there already are found by their place.
+        if (!tile.todo.empty() && tile.subpixel_roots.empty()) keep_roots(tile.quads, tile);
         tile.cursor = 1;
     }
 
@@ -137,7 +165,10 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
     }
     tile.todo.clear();
     tile.growing = {};
-    if (stage.parameter == growth.settings().supersampling) tile.subpixel_roots = {};
+    if (stage.parameter == growth.settings().supersampling) {
+        tile.subpixel_roots = {};
+        tile.quads_before = {};
+    }
     return true;
 }
 

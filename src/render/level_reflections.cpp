@@ -1,7 +1,5 @@
 #include "render/level_reflections.h"
 
-#include <numeric>
-
 namespace crescente::render {
 
 // Rays are grown in bands of influence, all tiles of a band before the next, so that the picture first gets what shows most.
@@ -16,13 +14,15 @@ std::vector<Stage> reflections_stages(const scene::Settings& settings) {
 
 bool advance_reflections(Growth& growth, const Stage& stage, const Deadline& deadline) {
     Tile& tile = growth.tile();
-    if (tile.todo.empty()) {  // the first band begins with the camera's own hits
-        tile.todo.resize(tile.nodes.size());
-        std::iota(tile.todo.begin(), tile.todo.end(), 0u);
-        for (std::size_t i = 0; i < tile.todo.size(); i += chunk_size) {
-            growth.spawn(std::span(tile.todo).subspan(i, std::min(chunk_size, tile.todo.size() - i)), tile.pending);
+    // The first band begins with the camera's own hits.
+    std::vector<std::uint32_t> chunk;
+    while (tile.cursor < tile.nodes.size()) {
+        for (; tile.cursor < tile.nodes.size() && chunk.size() < chunk_size; ++tile.cursor) {
+            const Node& node = tile.nodes[tile.cursor];
+            if (!node.spawned && !node.left_scene()) chunk.push_back(static_cast<std::uint32_t>(tile.cursor));
         }
-        tile.todo.resize(1);  // marks that it was done
+        growth.spawn(chunk, tile.pending);
+        chunk.clear();
     }
     return growth.grow_above(tile.pending, stage.parameter, deadline);
 }

@@ -1,7 +1,5 @@
 #include "render/level_shadows.h"
 
-#include <numeric>
-
 namespace crescente::render {
 
 std::vector<Stage> shadows_stages(const scene::Settings&) { return {{scene::Level::shadows, 0, 1}}; }
@@ -9,11 +7,13 @@ std::vector<Stage> shadows_stages(const scene::Settings&) { return {{scene::Leve
 bool advance_shadows(Growth& growth, const Stage&, const Deadline& deadline) {
     Tile& tile = growth.tile();
     std::vector<std::uint32_t> chunk;
-    while (tile.cursor < tile.nodes.size()) {
-        chunk.resize(std::min(chunk_size, tile.nodes.size() - tile.cursor));
-        std::iota(chunk.begin(), chunk.end(), static_cast<std::uint32_t>(tile.cursor));
+    while (true) {
+        for (; tile.cursor < tile.nodes.size() && chunk.size() < chunk_size; ++tile.cursor) {
+            if (!tile.nodes[tile.cursor].shadowed) chunk.push_back(static_cast<std::uint32_t>(tile.cursor));
+        }
+        if (chunk.empty()) break;
         growth.light(chunk, true, accel::Coherence::coherent);
-        tile.cursor += chunk.size();
+        chunk.clear();
         if (deadline.passed()) return false;
     }
     tile.lit = true;

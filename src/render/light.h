@@ -31,6 +31,7 @@ public:
     Incident at(Vec3 point) const;
     template <class T>
     Reach<T> reach(const VecOf<T>& point) const;
+    const scene::Light& source() const { return light_; }
     Rgb color() const { return color_; }
     bool casts_shadows() const { return light_.shadows; }
     bool makes_highlights() const { return light_.highlights; }

@@ -45,6 +45,7 @@ struct Lobes {
     bool one_sided = false;  // rays do not meet the back: glTF culls it. Never what refracts: rays must leave a body again
     Rgb albedo;              // for the picture's albedo layer
 
+    bool operator==(const Lobes&) const = default;
     bool opaque() const { return is_black(shadow_filter); }
     bool mirrors() const { return !is_black(mirror); }
     bool refracts() const { return !is_black(refraction); }
@@ -74,5 +75,8 @@ struct ChildWeights {
     Rgb reflected, refracted;
 };
 ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside);
+
+// Whether both send the same rays with the same weights from every hit.
+bool send_same_rays(const Lobes& a, const Lobes& b);
 
 }  // namespace crescente::render

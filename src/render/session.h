@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "render/counts.h"
 #include "render/deadline.h"
+#include "scene/edit.h"
 #include "scene/image.h"
 #include "scene/scene.h"
 
@@ -32,6 +33,7 @@ struct Stats {
     double render_seconds = 0;         // inside advance()
     double build_seconds = 0;          // acceleration structure
     int threads = 0;
+    std::uint64_t revised_tiles = 0;   // times that an edit touched the trees of a tile
 };
 
 struct Progress {
@@ -39,6 +41,14 @@ struct Progress {
     std::string level;      // what is being worked on
     double fraction = 0;    // of the whole picture, 0..1, never falls
     bool first_picture = false;  // the coarsest grid covers the whole frame: picture() is whole
+};
+
+// What an edit did to the trees, before any work is done anew.
+struct EditReport {
+    std::vector<scene::Edit> undo;   // edits that bring the scene back
+    bool began_anew = false;         // no tree was kept
+    bool accelerator_kept = true;
+    double seconds = 0;
 };
 
 class Session {
@@ -52,6 +62,10 @@ public:
 
     // Does the most influential pending work until the deadline.
     Progress advance(const Deadline& deadline);
+
+    // Changes the scene; what it does not touch is kept, and advance() does the rest. The converged picture is that of a fresh session of the edited
+    // scene, to the bit. Several edits are one. Errors (input, resource): every problem, with `file` and its place; nothing has changed then.
+    Expected<EditReport> edit(std::vector<scene::Edit> edits, const std::string& file = {});
 
     // The picture so far, whole at any moment: layer "color" only, or with all layers (see scene/image.h).
     scene::Image picture(bool all_layers = false) const;

@@ -9,6 +9,7 @@ namespace crescente::render {
 // Reflectance = scale * f0 + bias; scale and bias >= 0, their sum <= 1 (less for rough surfaces: light that goes on between facets is lost).
 struct SplitSum {
     float scale = 0, bias = 0;
+    bool operator==(const SplitSum&) const = default;
 };
 
 // The sums of one roughness at cosines (i / 16)^2 to the normal, close together where grazing light makes them steep.

@@ -1,5 +1,7 @@
 #include "render/world.h"
 
+#include <algorithm>
+
 namespace crescente::render {
 namespace {
 
@@ -13,47 +15,76 @@ Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const a
     return accel::make_embree(instances);
 }
 
+// All but the accelerator.
+void derive(World& world) {
+    const scene::Scene& s = world.scene;
+    for (const scene::Material& material : s.materials) world.lobes.push_back(compile(material));
+    world.lobes.push_back(compile(scene::Material{}));
+    const auto default_material = static_cast<std::uint32_t>(world.lobes.size() - 1);
+
+    scene::walk_appearances(s, [&](const scene::Appearance& at) {
+        world.first_slot.push_back(static_cast<std::uint32_t>(world.slots.size()));
+        bool opaque = true;
+        for (const scene::MaterialId id : *at.materials) {
+            world.slots.push_back(id.valid() ? id.value : default_material);
+            const Lobes& lobes = world.lobes[world.slots.back()];
+            opaque = opaque && lobes.opaque();
+            world.absorbs = world.absorbs || !is_black(lobes.attenuation);
+        }
+        if (at.materials->empty()) world.slots.push_back(default_material);
+        world.filters_light = world.filters_light || !opaque;
+        const geometry::Shape& shape = s.shapes[s.nodes[at.node].shape.value].shape;
+        world.instances.emplace_back(shape, at.to_world, opaque);
+        world.node_of_instance.push_back(at.node);
+        world.identity.push_back(at.identity);
+        world.boxes.push_back(transform(at.to_world, geometry::bounds(shape)));
+    });
+    for (const std::uint32_t slot : world.slots) world.one_sided.push_back(world.lobes[slot].one_sided);
+    for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
+        const std::size_t end = i + 1 < world.instances.size() ? world.first_slot[i + 1] : world.slots.size();
+        const std::span sides(world.one_sided.data() + world.first_slot[i], end - world.first_slot[i]);
+        if (std::any_of(sides.begin(), sides.end(), [](std::uint8_t one) { return one != 0; })) world.instances[i].one_sided = sides;
+    }
+    for (const scene::Light& light : s.lights) world.lights.emplace_back(light);
+    if (s.environment) world.environment = *s.environment;
+    world.camera_media = media_around_camera(world);
+}
+
 }  // namespace
 
 Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     if (!scene.camera) return failure(ErrorKind::input, {"", "/camera", "the scene has no camera", ""});
-    const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
-    for (scene::NamedShape& shape : world->scene.shapes) geometry::prepare(shape.shape);
-    const scene::Scene& s = world->scene;
-    for (const scene::Material& material : s.materials) world->lobes.push_back(compile(material));
-    world->lobes.push_back(compile(scene::Material{}));
-    const auto default_material = static_cast<std::uint32_t>(world->lobes.size() - 1);
-
-    scene::for_each_appearance(s, [&](std::uint32_t node, const Affine& to_world, const std::vector<scene::MaterialId>& materials) {
-        world->first_slot.push_back(static_cast<std::uint32_t>(world->slots.size()));
-        bool opaque = true;
-        for (const scene::MaterialId id : materials) {
-            world->slots.push_back(id.valid() ? id.value : default_material);
-            const Lobes& lobes = world->lobes[world->slots.back()];
-            opaque = opaque && lobes.opaque();
-            world->absorbs = world->absorbs || !is_black(lobes.attenuation);
-        }
-        if (materials.empty()) world->slots.push_back(default_material);
-        world->filters_light = world->filters_light || !opaque;
-        world->instances.emplace_back(s.shapes[s.nodes[node].shape.value].shape, to_world, opaque);
-        world->node_of_instance.push_back(node);
-    });
-    for (const std::uint32_t slot : world->slots) world->one_sided.push_back(world->lobes[slot].one_sided);
-    for (std::uint32_t i = 0; i < world->instances.size(); ++i) {
-        const std::size_t end = i + 1 < world->instances.size() ? world->first_slot[i + 1] : world->slots.size();
-        const std::span sides(world->one_sided.data() + world->first_slot[i], end - world->first_slot[i]);
-        if (std::any_of(sides.begin(), sides.end(), [](std::uint8_t one) { return one != 0; })) world->instances[i].one_sided = sides;
-    }
-    for (const scene::Light& light : s.lights) world->lights.emplace_back(light);
-    if (s.environment) world->environment = *s.environment;
-
-    world->camera_media = media_around_camera(*world);
-
-    auto accelerator = make_accelerator(world->instances, s.settings);
+    for (scene::NamedShape& shape : scene.shapes) geometry::prepare(shape.shape);
+    auto world = world_without_accelerator(std::move(scene));
+    auto accelerator = make_accelerator(world->instances, world->scene.settings);
     if (!accelerator) return tl::unexpected(accelerator.error());
     world->accelerator = std::move(*accelerator);
     return world;
+}
+
+std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
+    const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
+    derive(*world);
+    return world;
+}
+
+bool same_accelerator(const scene::Settings& a, const scene::Settings& b) {
+    return a.accelerator == b.accelerator && a.octant_rejection == b.octant_rejection && a.priority_queue == b.priority_queue;
+}
+
+Expected<void> give_accelerator(World& world, World& before, bool same) {
+    if (same) {
+        // It looks at the instances in their old place.
+        std::copy(world.instances.begin(), world.instances.end(), before.instances.begin());
+        std::swap(world.instances, before.instances);
+        world.accelerator = std::move(before.accelerator);
+        return {};
+    }
+    auto accelerator = make_accelerator(world.instances, world.scene.settings);
+    if (!accelerator) return tl::unexpected(accelerator.error());
+    world.accelerator = std::move(*accelerator);
+    return {};
 }
 
 }  // namespace crescente::render

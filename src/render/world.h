@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "accel/accelerator.h"
@@ -18,6 +19,8 @@ struct World {
     scene::Scene scene;  // the shapes that the instances point into; must not move its shapes
     std::vector<accel::Instance> instances;
     std::vector<std::uint32_t> node_of_instance;  // index of the scene's node
+    std::vector<std::uint64_t> identity;          // by instance: scene::Appearance::identity
+    std::vector<Bounds> boxes;                    // by instance, in world space
     std::vector<std::uint32_t> first_slot;        // by instance: where its materials begin in `slots`
     std::vector<std::uint32_t> slots;             // index into lobes
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
@@ -37,7 +40,17 @@ struct World {
     }
 };
 
-// Errors: no camera, an accelerator that cannot be built. The scene must be valid.
+// Prepares the shapes for tracing. Errors: no camera, an accelerator that cannot be built. The scene must be valid.
 Expected<std::unique_ptr<World>> world_of(scene::Scene scene);
+
+// The same for a scene whose shapes are prepared, without the accelerator.
+std::unique_ptr<World> world_without_accelerator(scene::Scene scene);
+
+// Whether the settings ask for the same accelerator.
+bool same_accelerator(const scene::Settings& a, const scene::Settings& b);
+
+// Builds the accelerator of a world after an edit, or, if it would be the same, takes that of the world before, which is then of no more use. Error: it
+// cannot be built; the world before keeps its own.
+Expected<void> give_accelerator(World& world, World& before, bool same);
 
 }  // namespace crescente::render

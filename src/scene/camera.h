@@ -18,6 +18,7 @@ struct Camera {
     double pixel_aspect = 1;                          // width of a pixel over its height
     double near = 0;                                  // nothing nearer is seen, metres along the view direction
     static const FieldTable<Camera>& fields();
+    bool operator==(const Camera&) const = default;
 };
 
 }  // namespace crescente::scene

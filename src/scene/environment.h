@@ -19,6 +19,7 @@ struct Environment {
     math::Rgb backdrop_top{0, 0, 0};
     double strength = 0;  // how much the gradient lights surfaces (ambient light without shadows), 1: as radiometry says
     static const FieldTable<Environment>& fields();
+    bool operator==(const Environment&) const = default;
 };
 
 }  // namespace crescente::scene

@@ -42,6 +42,7 @@ struct Light {
     bool shadows = true;
     bool highlights = true;          // false: lights diffusely only (fill lights)
     static const FieldTable<Light>& fields();
+    bool operator==(const Light&) const = default;
 };
 
 }  // namespace crescente::scene

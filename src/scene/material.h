@@ -27,6 +27,7 @@ struct ClassicMaterial {
     bool fresnel = false;                // reflection and transmission shares follow Fresnel's equations (dielectric)
     Rgb emission{0, 0, 0};
     static const FieldTable<ClassicMaterial>& fields();
+    bool operator==(const ClassicMaterial&) const = default;
 };
 
 // glTF 2.0 metallic-roughness with KHR_materials_ior and _transmission, factors only.
@@ -41,6 +42,7 @@ struct PhysicalMaterial {
     double opacity = 1;                  // alpha coverage: the rest passes straight on
     bool double_sided = true;
     static const FieldTable<PhysicalMaterial>& fields();
+    bool operator==(const PhysicalMaterial&) const = default;
 };
 
 struct Material {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
@@ -55,7 +56,7 @@ struct Unit {
 struct Scene {
     std::string name;
     Unit unit;
-    std::vector<NamedShape> shapes;
+    std::deque<NamedShape> shapes;  // which keep their places when more are added
     std::vector<Material> materials;
     std::vector<Node> nodes;
     std::vector<NodeId> roots;

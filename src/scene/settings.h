@@ -38,6 +38,7 @@ struct Settings {
     int threads = 0;               // 0: all
     std::int64_t memory = 0;       // ceiling for the forest, bytes; 0: none
     static const FieldTable<Settings>& fields();
+    bool operator==(const Settings&) const = default;
 };
 
 }  // namespace crescente::scene

@@ -26,6 +26,32 @@ public:
     Validator(const Scene& scene, const std::string& file) : scene_(scene), file_(file) {}
 
     Problems run() {
+        check_things();
+        for (std::uint32_t i = 0; i < scene_.shapes.size(); ++i) check_shape(i);
+        if (check_hierarchy()) check_visible(true);
+        return std::move(problems_);
+    }
+
+    Problems run_edited(std::span<const ShapeId> edited) {
+        check_things();
+        for (const ShapeId shape : edited) check_shape(shape.value);
+        if (check_hierarchy()) check_visible(false);
+        return std::move(problems_);
+    }
+
+private:
+    static constexpr std::size_t most_problems = 1000;
+
+    void check_shape(std::uint32_t i) {
+        const std::string place = "/shapes/" + key_of(scene_.shapes[i].name, i);
+        std::visit([&](const auto& shape) {
+            check_fields(shape, place + "/" + std::string(geometry::shape_names[scene_.shapes[i].shape.index()]));
+            check_shape(shape, place);
+        }, scene_.shapes[i].shape);
+    }
+
+    // All but shapes and hierarchy.
+    void check_things() {
         check_fields(scene_.settings, "/settings");
         check_picture_size();
         if (scene_.camera) check_camera(*scene_.camera);
@@ -35,19 +61,7 @@ public:
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
         }
-        for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
-            const std::string place = "/shapes/" + key_of(scene_.shapes[i].name, i);
-            std::visit([&](const auto& shape) {
-                check_fields(shape, place + "/" + std::string(geometry::shape_names[scene_.shapes[i].shape.index()]));
-                check_shape(shape, place);
-            }, scene_.shapes[i].shape);
-        }
-        check_hierarchy();
-        return std::move(problems_);
     }
-
-private:
-    static constexpr std::size_t most_problems = 1000;
 
     void add(const std::string& place, std::string reason, std::string hint = {}) {
         if (problems_.size() < most_problems) problems_.push_back({file_, place, std::move(reason), std::move(hint)});
@@ -220,7 +234,8 @@ private:
 
     // --- the hierarchy
 
-    void check_hierarchy() {
+    // Whether it can be walked through.
+    bool check_hierarchy() {
         const auto nodes = scene_.nodes.size();
         parents_.assign(nodes, NodeId::none);
         bool usable = true;
@@ -240,7 +255,7 @@ private:
             }
         }
         for (std::uint32_t i = 0; i < nodes; ++i) check_node(i);
-        if (usable && !find_cycle()) check_visible();
+        return usable && !find_cycle();
     }
 
     // "/objects/car/children/wheel": the way down from a root, of which a long one is cut at its beginning.
@@ -329,8 +344,8 @@ private:
         add("/objects", "the hierarchy goes round in a circle: " + text + name(from));
     }
 
-    // Something must be seen. Also counts what a walk down the hierarchy comes by: nested instances multiply, with and without shapes.
-    void check_visible() {
+    // Whether something is seen. Also counts what a walk down the hierarchy comes by: nested instances multiply, with and without shapes.
+    void check_visible(bool required) {
         struct Below {
             double shapes = -1, places = 0;  // at and below a node, hidden ones left out; as doubles they cannot overflow
         };
@@ -361,7 +376,7 @@ private:
             places += below[root.value].places;
         }
         constexpr double most_shapes = 1 << 26, most_places = 1 << 28;  // some 16 GB, and some seconds to walk through
-        if (shapes == 0) add("/objects", "nothing in the scene can be seen", "no visible object has a shape");
+        if (required && shapes == 0) add("/objects", "nothing in the scene can be seen", "no visible object has a shape");
         if (shapes > most_shapes) {
             add("/objects", "the instances show " + number_text(shapes) + " shapes, more than the " + number_text(most_shapes) + " that can be held");
         } else if (places > most_places) {
@@ -378,5 +393,7 @@ private:
 }  // namespace
 
 Problems validate(const Scene& scene, const std::string& file) { return Validator{scene, file}.run(); }
+
+Problems validate_edited(const Scene& scene, const std::string& file, std::span<const ShapeId> edited) { return Validator{scene, file}.run_edited(edited); }
 
 }  // namespace crescente::scene

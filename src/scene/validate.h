@@ -1,6 +1,8 @@
 // Whether a scene can be rendered: every problem at once.
 #pragma once
 
+#include <span>
+
 #include "base/error.h"
 #include "scene/scene.h"
 
@@ -10,5 +12,8 @@ namespace crescente::scene {
 // geometry, directions of zero length, a camera that looks nowhere, picture sizes. `file` is named in the problems. The
 // places are JSON pointers as in a native scene ("/materials/chrome/ior"); unnamed things are named by their index.
 Problems validate(const Scene& scene, const std::string& file);
+
+// The same after edits of a valid scene: of the shapes only those that are named are looked at, and nothing need be visible.
+Problems validate_edited(const Scene& scene, const std::string& file, std::span<const ShapeId> edited);
 
 }  // namespace crescente::scene

@@ -1,0 +1,184 @@
+#include "render/change.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace crescente::render {
+namespace {
+
+std::span<const std::uint32_t> slots_of(const World& world, std::uint32_t instance) {
+    const std::size_t first = world.first_slot[instance], end = instance + 1 < world.first_slot.size() ? world.first_slot[instance + 1] : world.slots.size();
+    return {world.slots.data() + first, end - first};
+}
+
+bool may_filter(const World& world, std::uint32_t instance) { return !world.instances[instance].opaque; }
+
+class Comparison {
+public:
+    Comparison(const World& before, const World& now, std::span<const scene::ShapeId> reshaped) : before_(before), now_(now), reshaped_(reshaped) {}
+
+    Change run(const scene::Settings& settings_before) {
+        compare_settings(settings_before, now_.scene.settings);
+        compare_lobes();
+        compare_instances();
+        compare_lights();
+        if (before_.environment != now_.environment) {
+            change_.sky = true;
+            change_.all_lit = true;
+        }
+        change_.lobes_only = change_.any_lobes && !change_.touches_more_than_lobes();
+        for (std::size_t i = 0; i < change_.lobes.size(); ++i) {
+            if (change_.lobes[i].light) change_.lobes_bits |= std::uint64_t{1} << i % 64;
+        }
+        return std::move(change_);
+    }
+
+private:
+    void compare_settings(const scene::Settings& a, const scene::Settings& b) {
+        // Transmittance is part of the weights of nodes: where bodies absorb, what changes weights begins again.
+        const bool absorbs = before_.absorbs || now_.absorbs;
+        change_.anew = before_.camera != now_.camera || a.width != b.width || a.height != b.height || a.tile != b.tile || a.keep != b.keep ||
+                       b.level < a.level || a.subpixel_shortcut != b.subpixel_shortcut || before_.absorbs != now_.absorbs;
+        change_.frontier = a.threshold != b.threshold || a.depth != b.depth;
+        change_.depth = a.depth != b.depth;
+        change_.splitting = a.supersampling != b.supersampling || a.contrast != b.contrast;
+        change_.stages = a.level != b.level || a.threshold != b.threshold || a.supersampling != b.supersampling;
+        change_.anew = change_.anew || (absorbs && change_.frontier);
+    }
+
+    void compare_lobes() {
+        // New ones come before the default one, which is the last and the same for all scenes.
+        change_.lobes.resize(now_.lobes.size());
+        for (std::size_t i = 0; i + 1 < std::min(before_.lobes.size(), now_.lobes.size()); ++i) change_.lobes[i] = difference(before_.lobes[i], now_.lobes[i]);
+    }
+
+    LobesChange difference(const Lobes& a, const Lobes& b) {
+        if (a == b) return {};
+        if (a.attenuation != b.attenuation || ((before_.absorbs || now_.absorbs) && (a.goes_on() || b.goes_on()))) change_.anew = true;
+        change_.any_lobes = true;
+        return change_between(a, b);
+    }
+
+    void compare_instances() {
+        std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> old;  // by identity, the last first
+        for (std::uint32_t i = static_cast<std::uint32_t>(before_.instances.size()); i-- > 0;) old[before_.identity[i]].push_back(i);
+        change_.instance_now.assign(before_.instances.size(), no_node);
+        change_.reassigned.resize(now_.instances.size());
+        std::uint32_t last = 0;  // the order of identity must be kept, by which ties between hits are decided
+        for (std::uint32_t i = 0; i < now_.instances.size(); ++i) {
+            const auto found = old.find(now_.identity[i]);
+            if (found == old.end() || found->second.empty()) {
+                came(i);
+                continue;
+            }
+            const std::uint32_t was = found->second.back();
+            found->second.pop_back();
+            if (was < last) change_.anew = true;
+            last = was;
+            if (!same_place(was, i)) {
+                came(i);
+                continue;
+            }
+            change_.instance_now[was] = i;
+            change_.renumbered = change_.renumbered || was != i;
+            compare_slots(was, i);
+        }
+        for (std::uint32_t i = 0; i < before_.instances.size(); ++i) {
+            if (change_.instance_now[i] != no_node) continue;
+            change_.same_geometry = false;
+            change_.light_went.push_back(before_.boxes[i]);
+            if (before_.absorbs && may_filter(before_, i)) change_.anew = true;  // media of rays that it is not on the way of
+        }
+    }
+
+    void came(std::uint32_t i) {
+        change_.same_geometry = false;
+        change_.came.push_back(now_.boxes[i]);
+        change_.light_came.push_back(now_.boxes[i]);
+        if (now_.absorbs && may_filter(now_, i)) change_.anew = true;
+    }
+
+    bool same_place(std::uint32_t was, std::uint32_t i) const {
+        const accel::Instance &a = before_.instances[was], &b = now_.instances[i];
+        const auto is_shown = [&](scene::ShapeId id) { return &now_.scene.shapes[id.value].shape == b.shape; };
+        if (a.shape != b.shape || a.to_world != b.to_world || std::any_of(reshaped_.begin(), reshaped_.end(), is_shown)) return false;
+        // Of a surface with one side rays do not meet the other.
+        const auto x = slots_of(before_, was), y = slots_of(now_, i);
+        const std::size_t slots = std::max(x.size(), y.size());
+        for (std::size_t k = 0; k < slots; ++k) {
+            if (before_.lobes[x[std::min(k, x.size() - 1)]].one_sided != now_.lobes[y[std::min(k, y.size() - 1)]].one_sided) return false;
+        }
+        return true;
+    }
+
+    void compare_slots(std::uint32_t was, std::uint32_t i) {
+        const auto x = slots_of(before_, was), y = slots_of(now_, i);
+        const std::size_t slots = std::max(x.size(), y.size());
+        bool filters = false;
+        for (std::size_t k = 0; k < slots; ++k) {
+            const std::uint32_t a = x[std::min(k, x.size() - 1)], b = y[std::min(k, y.size() - 1)];
+            if (a != b) change_.reassigned[i] = change_.any_reassigned = true;
+            const Lobes &from = before_.lobes[a], &to = now_.lobes[b];
+            filters = filters || from.shadow_filter != to.shadow_filter;
+            if (from.attenuation != to.attenuation) change_.anew = true;
+            if (a != b && (before_.absorbs || now_.absorbs) && (from.goes_on() || to.goes_on())) change_.anew = true;
+        }
+        if (!filters) return;
+        change_.light_went.push_back(before_.boxes[was]);
+        change_.light_came.push_back(now_.boxes[i]);
+    }
+
+    // Lights go by their place in the list; where their number changed, those that are the same at its beginning and its end are taken for the same.
+    void compare_lights() {
+        const std::size_t a = before_.lights.size(), b = now_.lights.size(), both = std::min(a, b);
+        const auto same = [&](std::size_t i, std::size_t j) { return before_.lights[i].source() == now_.lights[j].source(); };
+        change_.lights_before = a;
+        change_.light_before.assign(b, no_node);
+        change_.lights.assign(b, LightChange::way);
+        std::size_t head = both, tail = 0;
+        if (a != b) {
+            for (head = 0; head < both && same(head, head);) ++head;
+            while (tail < both - head && same(a - 1 - tail, b - 1 - tail)) ++tail;
+        }
+        for (std::size_t i = 0; i < head; ++i) keep(i, i);
+        for (std::size_t i = 0; i < tail; ++i) keep(a - 1 - i, b - 1 - i);
+        // A light that is gone leaves what it lit too bright.
+        if (a != b) change_.all_lit = true;
+    }
+
+    void keep(std::size_t was, std::size_t now) {
+        change_.light_before[now] = static_cast<std::uint32_t>(was);
+        const scene::Light &a = before_.lights[was].source(), &b = now_.lights[now].source();
+        if (a == b) {
+            change_.lights[now] = LightChange::none;
+            return;
+        }
+        const bool directed = b.kind == scene::LightKind::directional;
+        if (a.kind != b.kind || a.shadows != b.shadows || (directed ? a.direction != b.direction : a.position != b.position)) return;
+        const bool reach = a.direction != b.direction || a.inner_angle != b.inner_angle || a.outer_angle != b.outer_angle || a.gradient != b.gradient ||
+                           a.exponent != b.exponent || a.falloff != b.falloff || a.constant != b.constant || a.linear != b.linear ||
+                           a.quadratic != b.quadratic || a.range != b.range;
+        change_.lights[now] = reach ? LightChange::reach : LightChange::strength;
+    }
+
+    const World &before_, &now_;
+    std::span<const scene::ShapeId> reshaped_;
+    Change change_;
+};
+
+}  // namespace
+
+LobesChange change_between(const Lobes& before, const Lobes& now) {
+    return {before != now, !send_same_rays(before, now), before.ior != now.ior};
+}
+
+bool Change::touches_more_than_lobes() const {
+    return anew || !same_geometry || renumbered || !light_went.empty() || !light_came.empty() || all_lit || sky || frontier || splitting || stages ||
+           any_reassigned || lights_before != lights.size() || std::any_of(lights.begin(), lights.end(), [](LightChange l) { return l != LightChange::none; });
+}
+
+Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped) {
+    return Comparison(before, now, reshaped).run(settings_before);
+}
+
+}  // namespace crescente::render

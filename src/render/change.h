@@ -1,0 +1,64 @@
+// What an edit changes for the trees that are kept: the difference between two worlds, by what the nodes of a forest depend on.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/world.h"
+
+namespace crescente::render {
+
+// What became of a light. Each contains those before it.
+enum class LightChange : std::uint8_t {
+    none,
+    strength,  // color or highlights: local light, no ray
+    reach,     // cone, falloff, range: rays to points that it did not reach
+    way,       // its place or direction: all its rays
+};
+
+// What became of a material.
+struct LobesChange {
+    bool light = false;   // what it sends back
+    bool rays = false;    // the rays that it sends, or their weights
+    bool bends = false;   // where refracted rays go
+};
+LobesChange change_between(const Lobes& before, const Lobes& now);
+
+struct Change {
+    bool anew = false;           // everything on the way from the camera: trees begin again
+    bool same_geometry = true;   // no instance came, went, moved or took another shape
+
+    // Instances. A ray that ended on one that is gone is traced again; one that passes the box of one that came may now end there.
+    std::vector<std::uint32_t> instance_now;  // by index before; no_node: gone, or moved, or of another shape
+    std::vector<Bounds> came;                 // as they are now
+    bool renumbered = false;                  // some instance that stays has another index now
+    // Of what may pass or keep light that did not, or did, before: boxes of instances that went, or came, or let light through otherwise.
+    std::vector<Bounds> light_went, light_came;
+
+    std::vector<std::uint8_t> reassigned;     // by instance now: it may be of other materials
+    bool any_reassigned = false;
+    std::vector<LobesChange> lobes;           // by index of lobes now
+    bool any_lobes = false;
+    bool lobes_only = false;                  // nothing else
+    std::uint64_t lobes_bits = 0;             // those that changed, by index modulo 64
+    bool all_lit = false;                     // what surrounds the scene lights surfaces otherwise
+
+    std::vector<std::uint32_t> light_before;  // by light now; no_node: it is new
+    std::vector<LightChange> lights;          // by light now
+    std::size_t lights_before = 0;
+
+    bool sky = false;        // what rays see that leave the scene
+    bool frontier = false;   // threshold or depth bound
+    bool depth = false;      // depth bound
+    bool splitting = false;  // which pixels are split, or how often
+    bool stages = false;     // the levels' stages are others
+
+    bool touches_trees() const { return any_lobes || touches_more_than_lobes(); }
+    bool touches_more_than_lobes() const;
+};
+
+// Of the world before only what was derived from its scene is looked at, not the scene, of which `settings_before` are given. `reshaped`: shapes that
+// an edit gave another form.
+Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped);
+
+}  // namespace crescente::render

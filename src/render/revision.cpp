@@ -1,0 +1,381 @@
+#include "render/revision.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "render/environment.h"
+#include "render/film.h"
+#include "render/growth.h"
+#include "render/level_edges.h"
+#include "render/level_visible.h"
+
+namespace crescente::render {
+namespace {
+
+// Whether the way from `origin` along `direction`, from 0 to `end`, comes near the box: certainly if it passes it, whatever rounding does.
+bool passes(const Bounds& box, Vec3 origin, Vec3 direction, double end) {
+    constexpr double rounding = 1e-9;
+    double from = 0, to = end;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double margin = rounding * (std::abs(origin[axis]) + std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis])));
+        const double low = box.lower[axis] - margin - origin[axis], high = box.upper[axis] + margin - origin[axis];
+        const double d = direction[axis];
+        if (d == 0) {
+            if (low > 0 || high < 0) return false;
+            continue;
+        }
+        const double a = low / d, b = high / d;
+        if (std::isnan(a) || std::isnan(b)) continue;  // an infinite box
+        from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
+    }
+    return from <= to * (1 + rounding);
+}
+
+bool passes_any(const std::vector<Bounds>& boxes, Vec3 origin, Vec3 direction, double end) {
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return passes(box, origin, direction, end); });
+}
+
+// The stage that sends a camera ray through every corner that has none.
+int all_roots(const scene::Settings& settings) { return static_cast<int>(visible_stages(settings).size()) - 1; }
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t nowhere = ~std::uint64_t{0};
+
+class Reviser {
+public:
+    Reviser(Tile& tile, const World& before, const World& now, const Change& change) : tile_(tile), before_(before), now_(now), change_(change) {}
+
+    void run() {
+        const std::size_t count = tile_.nodes.size();
+        lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
+        const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
+        const bool rays_may_end_elsewhere = !change_.same_geometry;
+        if (rays_may_end_elsewhere || change_.sky) place_roots();
+        if (rays_may_end_elsewhere) find_lost_rays();
+        if (lost_roots_) tile_.pixels = develop(tile_);
+        if (lost_roots_ || outdated) tile_.pixels_stage = tile_.lit ? -1 : 0;
+        if (rays_may_end_elsewhere || change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
+            update_nodes();
+        }
+        if (!tile_.growing.empty()) {  // stopped amid splitting, which is then begun again
+            std::move(tile_.growing.begin(), tile_.growing.end(), std::back_inserter(tile_.pending));
+            tile_.growing.clear();
+            touched_ = true;
+        }
+        if (lost_any_ || spawns_again_) respawn();
+        update_shares();
+        tile_.split_anew = tile_.split_anew || lost_roots_ || change_.splitting || change_.stages;
+        if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
+        touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
+        if (lost_any_) compact();
+        if (!now_.absorbs && (weights_changed_ || change_.frontier || spawns_again_)) weigh();
+        tile_.unsettled = tile_.unsettled || touched_;
+    }
+
+private:
+    // Which point of the picture each root belongs to; the others no longer belong to any.
+    void place_roots() {
+        place_.assign(tile_.nodes.size(), nowhere);
+        for (int y = 0; y <= tile_.height && !tile_.corners.empty(); ++y) {
+            for (int x = 0; x <= tile_.width; ++x) place(tile_.corner(x, y), corner_point(x, y));
+        }
+        for (const auto& [key, root] : tile_.subpixel_roots) place(root, point_of(key));
+        const std::vector<Quad>& quads = tile_.quads.empty() ? tile_.quads_before : tile_.quads;
+        if (quads.empty()) return;
+        std::uint32_t i = 0;
+        for (int y = 0; y < tile_.height; ++y) {
+            for (int x = 0; x < tile_.width; ++x) place_parts(quads, i++, corner_point(x, y), 1u << subpixel_bits);
+        }
+    }
+    LatticePoint corner_point(int x, int y) const {
+        return {static_cast<std::uint32_t>(tile_.x0 + x) << subpixel_bits, static_cast<std::uint32_t>(tile_.y0 + y) << subpixel_bits};
+    }
+    void place(std::uint32_t root, LatticePoint at) {
+        if (root != no_node) place_[root] = key_of(at);
+    }
+    void place_parts(const std::vector<Quad>& quads, std::uint32_t quad, LatticePoint at, std::uint32_t size) {
+        const std::uint32_t parts = quads[quad].parts, half = size / 2;
+        if (parts == no_node) return;
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const LatticePoint corner{at.x + (k & 1 ? half : 0), at.y + (k & 2 ? half : 0)};
+            for (std::uint32_t c = 0; c < 4; ++c) place(quads[parts + k].corners[c], {corner.x + (c & 1 ? half : 0), corner.y + (c & 2 ? half : 0)});
+            place_parts(quads, parts + k, corner, half);
+        }
+    }
+
+    // Rays that ended on what is gone, or that may now end earlier.
+    void find_lost_rays() {
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            const Node& node = tile_.nodes[i];
+            const bool root = node.parent == no_node;
+            const bool forgotten = root && place_[i] == nowhere;  // of a pixel that is no longer split
+            if (!forgotten && !is_lost(i)) continue;
+            lost_[i] = lost_any_ = true;
+            if (forgotten) continue;
+            if (root) lost_roots_ = true;
+            else spawn_again_[node.parent] = spawns_again_ = true;
+        }
+    }
+    bool is_lost(std::uint32_t i) const {
+        const Node& node = tile_.nodes[i];
+        if (!node.left_scene() && change_.instance_now[node.instance] == no_node) return true;
+        if (change_.came.empty()) return false;
+        if (node.parent != no_node) {
+            const Vec3 origin = tile_.nodes[node.parent].position;
+            return passes_any(change_.came, origin, node.left_scene() ? node.position : node.position - origin, node.left_scene() ? infinity : 1);
+        }
+        constexpr double scale = 1.0 / (1 << subpixel_bits);
+        const LatticePoint at = point_of(place_[i]);
+        const geometry::Ray ray = now_.camera.through(at.x * scale, at.y * scale);
+        return passes_any(change_.came, ray.origin, ray.direction, node.left_scene() ? infinity : dot(node.position - ray.origin, ray.direction));
+    }
+
+    // Instances and materials by their present index, skies, and who is to be lit anew or to send its rays anew.
+    void update_nodes() {
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            if (lost_[i]) continue;
+            Node& node = tile_.nodes[i];
+            if (node.left_scene()) {
+                if (change_.sky) update_sky(node, point_of(place_[i]));
+                continue;
+            }
+            node.instance = change_.instance_now[node.instance];
+            LobesChange lobes;
+            if (change_.reassigned[node.instance]) {
+                const accel::Instance& instance = now_.instances[node.instance];
+                const auto surface = geometry::surface(*instance.shape, node.primitive, instance.to_local.point(node.position));
+                const std::uint32_t material = now_.material(node.instance, surface.slot);
+                const Lobes &from = before_.lobes[node.material], &to = now_.lobes[material];
+                lobes = change_between(from, to);
+                node.material = material;
+                tile_.materials |= std::uint64_t{1} << material % 64;
+            } else {
+                lobes = change_.lobes[node.material];
+            }
+            if (lobes.light || change_.all_lit) relight(node);
+            if (lobes.rays || change_.depth) spawn_again_[i] = spawns_again_ = true;
+            if (lobes.bends) bends_[i] = true;
+        }
+    }
+    void update_sky(Node& node, LatticePoint at) {
+        const Rgb was = node.local;
+        constexpr double scale = 1.0 / (1 << subpixel_bits);
+        const bool backdrop = node.parent == no_node && now_.environment.backdrop;
+        node.local = backdrop ? backdrop_radiance(now_.environment, 1 - at.y * scale / now_.camera.height()) : environment_radiance(now_.environment, node.position);
+        if (node.local != was) touched_ = true;
+    }
+    void relight(Node& node) {
+        node.shadowed = false;
+        touched_ = true;
+    }
+
+    // Compares the rays that nodes send now with those they sent: children keep what holds, and get their weight; the rest is pending, or lost.
+    void respawn() {
+        std::vector<std::uint32_t> again;
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            const Node& node = tile_.nodes[i];
+            if (!spawn_again_[i]) continue;
+            if (lost_[i] || !node.spawned || node.left_scene()) spawn_again_[i] = false;
+            else again.push_back(i);
+        }
+        Growth growth(now_, tile_, false);
+        std::vector<Pending> sent, missing;
+        for (std::size_t i = 0; i < again.size(); i += chunk_size) {
+            growth.spawn(std::span(again).subspan(i, std::min(chunk_size, again.size() - i)), sent);
+        }
+        auto next = sent.begin();
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            const std::uint32_t parent = tile_.nodes[i].parent;
+            if (parent != no_node && lost_[parent]) lost_[i] = true;
+            if (!spawn_again_[i]) continue;
+            const Pending* rays[3] = {};
+            for (; next != sent.end() && next->parent == i; ++next) rays[static_cast<std::size_t>(next->way)] = &*next;
+            if (lost_[i]) continue;
+            for (const Way way : {Way::reflected, Way::refracted, Way::straight}) {
+                const Pending* ray = rays[static_cast<std::size_t>(way)];
+                const std::uint32_t child = child_of(i, way);
+                const bool holds = child != no_node && !lost_[child] && ray && !(way == Way::refracted && bends_[i]);
+                if (child != no_node && !holds) lost_[child] = lost_any_ = true;
+                if (holds && tile_.nodes[child].weight != ray->weight && !now_.absorbs) tile_.nodes[child].weight = ray->weight, weights_changed_ = true;
+                if (ray && !holds) missing.push_back(*ray);
+            }
+        }
+        std::erase_if(tile_.pending, [&](const Pending& p) { return lost_[p.parent] || spawn_again_[p.parent]; });
+        tile_.pending.insert(tile_.pending.end(), missing.begin(), missing.end());
+    }
+    std::uint32_t child_of(std::uint32_t node, Way way) const {
+        if (way == Way::reflected) return tile_.nodes[node].reflected;
+        if (way == Way::refracted) return tile_.nodes[node].refracted;
+        const auto child = tile_.straight.find(node);
+        return child == tile_.straight.end() ? no_node : child->second;
+    }
+
+    // The ways of lights that may be others are untried again.
+    void update_shares() {
+        const std::size_t before = change_.lights_before, now = change_.lights.size();
+        bool same = before == now && change_.light_went.empty() && change_.light_came.empty();
+        for (std::size_t l = 0; l < now; ++l) same = same && change_.lights[l] == LightChange::none && change_.light_before[l] == l;
+        if (same) return;
+        std::vector<Share> shares(tile_.nodes.size() * now, Share::untried);
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            Node& node = tile_.nodes[i];
+            if (lost_[i] || node.left_scene()) continue;
+            for (std::size_t l = 0; l < now; ++l) {
+                const std::size_t was = change_.light_before[l], key = i * before + was;
+                const Share share = was == no_node || key >= tile_.shares.size() ? Share::untried : tile_.shares[key];
+                const bool holds = holds_still(node, l, share);
+                if (holds) shares[i * now + l] = share;
+                // The strength of a light that does not arrive does not matter.
+                tile_.untried = tile_.untried || !holds || (share == Share::untried && was == no_node);
+                if (!holds || (change_.lights[l] != LightChange::none && may_arrive(share))) relight(node);
+            }
+        }
+        std::unordered_map<std::uint64_t, Rgb> filtered;
+        for (std::size_t l = 0; l < now && !tile_.filtered.empty(); ++l) {
+            if (change_.light_before[l] == no_node) continue;
+            for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+                if (shares[i * now + l] == Share::filtered) filtered[i * now + l] = tile_.filtered.at(i * before + change_.light_before[l]);
+            }
+        }
+        tile_.shares = std::move(shares);
+        tile_.filtered = std::move(filtered);
+    }
+    bool holds_still(const Node& node, std::size_t l, Share share) const {
+        if (share == Share::untried) return true;
+        if (change_.lights[l] == LightChange::way) return false;
+        if (share == Share::behind) return change_.lights[l] < LightChange::reach;
+        const bool may_open = share != Share::clear && !change_.light_went.empty(), may_close = share != Share::blocked && !change_.light_came.empty();
+        if (!may_open && !may_close) return true;
+        const scene::Light& light = now_.lights[l].source();
+        const bool directional = light.kind == scene::LightKind::directional;
+        const Vec3 way = directional ? -light.direction : light.position - node.position;
+        const double end = directional ? infinity : 1;
+        return !(may_open && passes_any(change_.light_went, node.position, way, end)) && !(may_close && passes_any(change_.light_came, node.position, way, end));
+    }
+
+    // Takes lost nodes out. The others keep their order, so that children still come after their parents.
+    void compact() {
+        std::vector<std::uint32_t> index(tile_.nodes.size(), no_node);
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            if (!lost_[i]) index[i] = count++;
+        }
+        const auto now_at = [&](std::uint32_t i) { return i == no_node ? no_node : index[i]; };
+        const std::size_t lights = now_.lights.size();
+        tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            const std::uint32_t to = index[i];
+            if (to == no_node) continue;
+            Node& node = tile_.nodes[to] = tile_.nodes[i];
+            node.parent = now_at(node.parent), node.reflected = now_at(node.reflected), node.refracted = now_at(node.refracted);
+            std::copy_n(tile_.shares.begin() + static_cast<std::ptrdiff_t>(i * lights), lights, tile_.shares.begin() + static_cast<std::ptrdiff_t>(to * lights));
+        }
+        tile_.nodes.resize(count);
+        tile_.shares.resize(count * lights);
+        std::unordered_map<std::uint64_t, Rgb> filtered;
+        for (const auto& [key, share] : tile_.filtered) {
+            if (const std::uint32_t to = index[key / lights]; to != no_node) filtered.emplace(to * lights + key % lights, share);
+        }
+        tile_.filtered = std::move(filtered);
+        std::unordered_map<std::uint32_t, std::uint32_t> straight;
+        for (const auto& [parent, child] : tile_.straight) {
+            if (index[parent] != no_node && index[child] != no_node) straight.emplace(index[parent], index[child]);
+        }
+        tile_.straight = std::move(straight);
+        for (std::uint32_t& root : tile_.corners) root = now_at(root);
+        std::erase_if(tile_.subpixel_roots, [&](const auto& entry) { return index[entry.second] == no_node; });
+        for (auto& [key, root] : tile_.subpixel_roots) root = index[root];
+        for (std::vector<Quad>* quads : {&tile_.quads, &tile_.quads_before}) {
+            for (Quad& quad : *quads) {
+                for (std::uint32_t& root : quad.corners) root = now_at(root);
+            }
+        }
+        for (Pending& pending : tile_.pending) pending.parent = index[pending.parent];
+    }
+
+    // Influences by the weights as they are now: what falls below the threshold is hidden with all below it, what rises above it shows again.
+    void weigh() {
+        const scene::Settings& settings = now_.scene.settings;
+        const std::size_t count = tile_.nodes.size();
+        std::vector<Rgb> influence(count);
+        std::vector<bool> unseen(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Node& node = tile_.nodes[i];
+            if (node.parent == no_node) {
+                influence[i] = node.weight;
+                continue;
+            }
+            influence[i] = influence[node.parent] * node.weight;
+            node.hidden = !(max_component(influence[i]) > settings.threshold) || node.depth > settings.depth;
+            unseen[i] = node.hidden || unseen[node.parent];
+        }
+        for (Pending& p : tile_.pending) p.influence = unseen[p.parent] ? 0 : max_component(influence[p.parent] * p.weight);
+    }
+
+    Tile& tile_;
+    const World &before_, &now_;
+    const Change& change_;
+    std::vector<std::uint64_t> place_;  // by node: key of a root's point
+    std::vector<std::uint8_t> lost_, spawn_again_, bends_;  // by node
+    bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false;
+};
+
+// The tile without its trees; its picture stays until there is another.
+void begin_anew(Tile& tile) {
+    Tile rest;
+    rest.x0 = tile.x0, rest.y0 = tile.y0, rest.width = tile.width, rest.height = tile.height;
+    rest.pixels = develop(tile);
+    rest.rays = tile.rays, rest.tests = tile.tests;
+    rest.revision = tile.revision;
+    tile = std::move(rest);
+}
+
+// Lights the nodes that wait for it.
+void light_again(Tile& tile, const World& world) {
+    const bool shadows = world.scene.settings.level >= scene::Level::shadows;
+    Growth growth(world, tile, false);
+    std::vector<std::uint32_t> chunk;
+    for (std::uint32_t i = 0; i < tile.nodes.size();) {
+        chunk.clear();
+        for (; i < tile.nodes.size() && chunk.size() < chunk_size; ++i) {
+            if (!tile.nodes[i].shadowed) chunk.push_back(i);
+        }
+        growth.light(chunk, shadows, accel::Coherence::coherent);
+    }
+}
+
+}  // namespace
+
+void revise(Tile& tile, const World& before, const World& now, const Change& change) {
+    if (!change.touches_trees()) return;
+    if (change.anew || tile.nodes.empty()) return begin_anew(tile);
+    if (change.lobes_only && !(change.lobes_bits & tile.materials)) return;
+    Reviser(tile, before, now, change).run();
+}
+
+void settle(Tile& tile, const World& world, std::span<const scene::Level> level_of_stage) {
+    if (!std::exchange(tile.unsettled, false)) return;
+    const scene::Settings& settings = world.scene.settings;
+    const auto first_of = [&](scene::Level level) {
+        return static_cast<int>(std::find(level_of_stage.begin(), level_of_stage.end(), level) - level_of_stage.begin());
+    };
+    const int shadows = first_of(scene::Level::shadows), reflections = first_of(scene::Level::reflections), edges = first_of(scene::Level::edges);
+    const bool untried = std::exchange(tile.untried, false);
+    const auto is_missing = [](std::uint32_t root) { return root == no_node; };
+    const auto shows = [&](const Pending& p) { return p.influence > settings.threshold; };
+
+    int stage = static_cast<int>(level_of_stage.size());
+    // Later stages begin with all nodes lit; where the picture has no shadows no stage lights what is there.
+    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) light_again(tile, world);
+    else stage = std::min(stage, shadows);
+    if (std::any_of(tile.corners.begin(), tile.corners.end(), is_missing)) stage = std::min(stage, all_roots(settings));
+    if (std::any_of(tile.pending.begin(), tile.pending.end(), shows)) stage = std::min(stage, reflections);
+    tile.todo.clear();
+    tile.cursor = 0;
+    // Stopped amid splitting, or with some roots lost, splits cannot be looked through one by one.
+    const bool complete = tile.stage == static_cast<int>(level_of_stage.size()) && tile.quads_before.empty();
+    if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
+    tile.stage = std::min({tile.stage, stage, edges});
+}
+
+}  // namespace crescente::render
