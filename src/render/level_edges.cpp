@@ -113,8 +113,12 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
             std::array<Rgb, 4> corners;
             for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[quad.corners[k]]);
             const bool split = differ(corners, static_cast<float>(growth.settings().contrast));
-            if (!split) quad.parts = no_node;  // of before an edit
-            else if (quad.parts == no_node) tile.todo.push_back(i);
+            if (split && quad.parts == no_node) {
+                tile.todo.push_back(i);
+            } else if (!split && quad.parts != no_node) {  // of before an edit
+                quad.parts = no_node;
+                ++tile.forgotten;
+            }
         }
         // Corners that are there already are found by their place.
         if (!tile.todo.empty() && tile.subpixel_roots.empty()) keep_roots(tile.quads, tile);

@@ -49,9 +49,11 @@ public:
         const std::size_t count = tile_.nodes.size();
         lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
         const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
+        constexpr std::size_t few = 32;
+        const bool untidy = tile_.forgotten * few > count;
         const bool rays_may_end_elsewhere = !change_.same_geometry;
-        if (rays_may_end_elsewhere || change_.sky) place_roots();
-        if (rays_may_end_elsewhere) find_lost_rays();
+        if (rays_may_end_elsewhere || untidy || change_.sky) place_roots();
+        if (rays_may_end_elsewhere || untidy) find_lost_rays();
         if (lost_roots_) tile_.pixels = develop(tile_);
         if (lost_roots_ || outdated) tile_.pixels_stage = tile_.lit ? -1 : 0;
         if (rays_may_end_elsewhere || change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
@@ -64,10 +66,11 @@ public:
         }
         if (lost_any_ || spawns_again_) respawn();
         update_shares();
-        tile_.split_anew = tile_.split_anew || lost_roots_ || change_.splitting || change_.stages;
+        tile_.split_anew = tile_.split_anew || lost_roots_ || untidy || change_.splitting || change_.stages;
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
         if (lost_any_) compact();
+        if (rays_may_end_elsewhere || untidy) tile_.forgotten = 0;
         if (!now_.absorbs && (weights_changed_ || change_.frontier || spawns_again_)) weigh();
         tile_.unsettled = tile_.unsettled || touched_;
     }

@@ -382,6 +382,21 @@ TEST(Edits, UndoBringsBackThePicture) {
     EXPECT_TRUE(same_picture(changed, session.picture()));
 }
 
+// Pixels that are split, and no longer, and again: what was forgotten does not pile up.
+TEST(Edits, ManyEditsDoNotMakeTheForestGrow) {
+    const Scene scene = still_life();
+    Session session = finished(scene);
+    const std::uint64_t nodes = session.stats().nodes;
+    for (int i = 0; i < 40; ++i) {
+        scene::Material floor = scene.materials[0];
+        std::get<ClassicMaterial>(floor.model).diffuse = i % 2 ? Rgb{0.9f, 0.1f, 0.1f} : Rgb{0.05f, 0.05f, 0.05f};
+        ASSERT_TRUE(session.edit({scene::SetMaterial{{0}, floor}}));
+        converge(session);
+    }
+    EXPECT_LT(session.stats().nodes, nodes + nodes / 2);
+    EXPECT_TRUE(same_picture(finished(session.scene()).picture(true), session.picture(true)));
+}
+
 TEST(Edits, AnEditThatBreaksTheSceneIsRefusedWhole) {
     const Scene scene = still_life();
     const scene::Image picture = finished(scene).picture(true);
