@@ -131,7 +131,7 @@ Expected<void> Trimming::add_loop(const Loop& loop, std::size_t number, const Le
             for (std::size_t k = 1; k < stops[i].size(); ++k) {
                 const Point2 after = k + 1 == stops[i].size() ? to : evaluate(edge.piece, stops[i][k]).at;
                 pieces_.push_back({before, after, band, static_cast<std::uint32_t>(stretches_.size())});
-                stretches_.push_back({stops[i][k - 1], stops[i][k], curve});
+                measure_bulge(pieces_.back(), stretches_.emplace_back(CurveStretch{stops[i][k - 1], stops[i][k], curve}), edge.piece);
                 before = after;
             }
         }
@@ -260,11 +260,7 @@ bool Trimming::any_near(Point2 p, const Metric& metric, Visit&& visit) const {
         const auto [v0, v1] = std::minmax(piece.from.v, piece.to.v);
         const double du = std::max({u0 - p.u, p.u - u1, 0.0}), dv = std::max({v0 - p.v, p.v - v1, 0.0});
         if (du * du * step_u2 > band2 || dv * dv * step_v2 > band2) continue;
-        if (const auto* arc = piece.is_line() ? nullptr : std::get_if<ArcPiece>(curve_of(piece)); arc && arc->x.u == arc->y.v && arc->x.v == -arc->y.u) {
-            // Far from a circle, told without a search.
-            const double off = std::hypot(p.u - arc->center.u, p.v - arc->center.v) - std::hypot(arc->x.u, arc->x.v);
-            if (off * off * std::min(step_u2, step_v2) * 0.5 > band2) continue;
-        }
+        if (!piece.is_line() && surely_farther(piece, stretches_[piece.stretch], *curve_of(piece), p, metric, piece.band)) continue;
         const NearestPoint near = nearest_point(piece, stretch_of(piece), curve_of(piece), p, metric);
         if (near.distance2 <= band2 && visit(piece, near)) return true;
     }
