@@ -238,6 +238,31 @@ bool Trimming::runs_right_of(const MonotonePiece& piece, Point2 p) const {
     return u_at(piece, stretch_of(piece), curve_of(piece), p.v) > p.u;
 }
 
+Trimming::Sorted Trimming::sort(const Lanes& u, const Lanes& v, unsigned wanted) const {
+    // As locate_periodic and place_of do it one by one.
+    Lanes at = u;
+    unsigned several = 0;
+    if (period_.u > 0) {
+        at = u + period_.u * rounded_up_to_integer((reach_.u0 - u) / period_.u);
+        several = bits_of(at + period_.u <= reach_.u1);
+    }
+    const unsigned near = bits_of((at >= reach_.u0) & (at <= reach_.u1) & (v >= reach_.v0) & (v <= reach_.v1)) & wanted;
+    Sorted sorted{0, near & several};
+    if (!(near & ~several)) return sorted;
+    const auto index = [](const Lanes& x, int count) {
+        const Lanes low = x < 0.0 ? Lanes{} : x, last = Lanes{} + (count - 1.0);
+        return __builtin_convertvector(low > last ? last : low, LaneMask);
+    };
+    const LaneMask column = index((at - inner_u_) * cells_per_u_ + 1.0, columns_), row = index((v - inner_v_) * cells_per_v_ + 1.0, rows_);
+    for (unsigned rest = near & ~several; rest; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const Cell state = cell(static_cast<int>(column[i]), static_cast<int>(row[i]));
+        if (state == Cell::inside) sorted.inside |= 1u << i;
+        if (state == Cell::boundary) sorted.open |= 1u << i;
+    }
+    return sorted;
+}
+
 bool Trimming::encloses(Point2 p, int row) const {
     bool inside = false;
     for (std::uint32_t k = row_begins_[row]; k < row_begins_[row + 1]; ++k) {
