@@ -109,4 +109,14 @@ inline unsigned bits_of(LaneMask mask) {
 #endif
 }
 
+inline LaneMask mask_of(unsigned lanes) {
+#if defined(__AVX512DQ__)
+    return reinterpret_cast<LaneMask>(_mm512_movm_epi64(static_cast<__mmask8>(lanes)));
+#else
+    LaneMask mask{};
+    for (int i = 0; i < lane_count; ++i) mask[i] = lanes >> i & 1 ? -1 : 0;
+    return mask;
+#endif
+}
+
 }  // namespace crescente::math
