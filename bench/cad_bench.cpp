@@ -78,22 +78,24 @@ bool measure(const std::string& file, const Options& options) {
     std::unique_ptr<render::World> coarse;
     if (!options.exact) {
         const auto model = io::read_cad_anew(file, {options.deflection, {}}, {});
-        if (!model) return fail(model.error());
+        if (!model) fail(model.error());  // OpenCASCADE cannot make them: exact alone
         std::vector<io::UntraceableFace> none;
-        tessellated = io::cad_scene(*model, none).scene;
-        if (Problems problems = scene::validate(tessellated, file); !problems.empty()) return fail({ErrorKind::input, std::move(problems)});
-        tessellated.camera = scene.camera;
-        auto world = render::world_of(tessellated);
-        if (!world) return fail(world.error());
-        coarse = std::move(*world);
-        triangles = std::make_unique<RawEmbree>(coarse->instances);
-        for (const accel::Instance& instance : coarse->instances) triangle_count += geometry::parts(*instance.shape);
+        if (model) {
+            tessellated = io::cad_scene(*model, none).scene;
+            if (Problems problems = scene::validate(tessellated, file); !problems.empty()) return fail({ErrorKind::input, std::move(problems)});
+            tessellated.camera = scene.camera;
+            auto world = render::world_of(tessellated);
+            if (!world) return fail(world.error());
+            coarse = std::move(*world);
+            for (const accel::Instance& instance : coarse->instances) triangle_count += geometry::parts(*instance.shape);
+            triangles = std::make_unique<RawEmbree>(coarse->instances);
+        }
     }
 
     const PictureRays rays(**exact, edge, edge, nullptr);
     std::vector<Row> rows;
     std::vector<RawEmbree::Packets> packets;
-    std::vector<RTCRayHit> single;
+    std::vector<RTCRayHit> single[2];
     packets.reserve(2);
     for (const auto& [name, of] : {std::pair<const char*, const Rays&>{"camera", rays.camera}, {"bounce", rays.bounce}}) {
         rows.push_back({name, of.rays.size(), [&exact, &of] { return trace(*(*exact)->accelerator, of, false); }, {}});
@@ -103,8 +105,9 @@ bool measure(const std::string& file, const Options& options) {
             packets.push_back(RawEmbree::pack(of.rays, of.coherence == accel::Coherence::coherent));
             rows.push_back({name, packets.back().nearest.size() * 16, [&triangles, &p = packets.back()] { return triangles->nearest(p); }, {}});
         }
-        single = RawEmbree::pack_singly(rays.bounce.rays);
-        rows.push_back({"bounce_triangles_singly", single.size(), [&] { return triangles->nearest_singly(single); }, {}});
+        single[0] = RawEmbree::pack_singly(rays.camera.rays), single[1] = RawEmbree::pack_singly(rays.bounce.rays);
+        rows.push_back({"camera_triangles_singly", single[0].size(), [&] { return triangles->nearest_singly(single[0]); }, {}});
+        rows.push_back({"bounce_triangles_singly", single[1].size(), [&] { return triangles->nearest_singly(single[1]); }, {}});
     }
     for (int repetition = 0; repetition < options.repetitions; ++repetition) {
         for (Row& row : rows) {

@@ -218,10 +218,10 @@ void measure_bulge(const MonotonePiece& piece, CurveStretch& stretch, const Loop
         const auto [v0, v1] = std::minmax({piece.from.v, piece.to.v, first.v, last.v});
         for (const double u : {u0, u1}) include({u, v0}), include({u, v1});
     }
-    // Welded ends and rounding.
-    const double slack = 1e-6 * (high - low) + 1e-9;
-    stretch.low = std::nextafterf(static_cast<float>(low - slack), -HUGE_VALF), stretch.high = std::nextafterf(static_cast<float>(high + slack), HUGE_VALF);
-    if (!std::isfinite(stretch.low) || !std::isfinite(stretch.high)) stretch.low = -HUGE_VALF, stretch.high = HUGE_VALF;
+    // Outward by a unit at least, for rounding.
+    low = std::floor(low / CurveStretch::bulge_unit) - 1, high = std::ceil(high / CurveStretch::bulge_unit) + 1;
+    const bool fits = low > -CurveStretch::no_bulge && high < CurveStretch::no_bulge;
+    stretch.low = static_cast<std::int16_t>(fits ? low : 0), stretch.high = static_cast<std::int16_t>(fits ? high : CurveStretch::no_bulge);
 }
 
 bool surely_farther(const MonotonePiece& piece, const CurveStretch& stretch, const LoopPiece& curve, Point2 p, const Metric& metric, double distance) {
@@ -230,9 +230,9 @@ bool surely_farther(const MonotonePiece& piece, const CurveStretch& stretch, con
     if (!(determinant > 0)) return false;
     // Off the strip about the chord: by Cauchy-Schwarz for the metric, a linear function with gradient n changes by at most sqrt(n G^-1 n) a unit of length.
     const Point2 chord{piece.to.u - piece.from.u, piece.to.v - piece.from.v};
-    const double bulge = chord.u * (p.v - piece.from.v) - chord.v * (p.u - piece.from.u), length2 = chord.u * chord.u + chord.v * chord.v;
-    const double off = std::max(stretch.low * length2 - bulge, bulge - stretch.high * length2);
-    if (off > 0 && off * off * determinant > distance2 * (vv * chord.v * chord.v + 2 * uv * chord.u * chord.v + uu * chord.u * chord.u)) return true;
+    const double bulge = chord.u * (p.v - piece.from.v) - chord.v * (p.u - piece.from.u), unit = CurveStretch::bulge_unit * (chord.u * chord.u + chord.v * chord.v);
+    const double off = std::max(stretch.low * unit - bulge, bulge - stretch.high * unit);
+    if (stretch.high != CurveStretch::no_bulge && off > 0 && off * off * determinant > distance2 * (vv * chord.v * chord.v + 2 * uv * chord.u * chord.v + uu * chord.u * chord.u)) return true;
     const auto* arc = std::get_if<ArcPiece>(&curve);
     if (!arc) return false;
     const auto near = [&](Point2 q) {  // the ends are welded, perhaps off the ellipse

@@ -51,7 +51,9 @@ struct MonotonePiece {
 struct CurveStretch {
     double t0 = 0, t1 = 0;    // of `from` and `to`
     std::uint32_t curve = 0;  // arcs and Bézier pieces of the face
-    float low = 0, high = 0;  // how far the stretch bulges from its chord, on the right and on the left; as a share of the chord's length
+    static constexpr double bulge_unit = 1.0 / (1 << 14);  // of the chord's length
+    static constexpr int no_bulge = 0x7fff;                // as `high`: not known
+    std::int16_t low = 0, high = no_bulge;  // how far the stretch bulges from its chord, on the right and on the left
 };
 
 // Fills in `low` and `high`: they hold the stretch for sure.
