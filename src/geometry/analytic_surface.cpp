@@ -6,6 +6,7 @@
 #include "geometry/convex.h"
 #include "geometry/sphere.h"
 #include "geometry/torus.h"
+#include "math/arctangent.h"
 
 namespace crescente::geometry {
 namespace {
@@ -133,18 +134,17 @@ int AnalyticSurface::meet(const Ray& ray, Meeting* found) const {
 Point2 AnalyticSurface::parameters(Vec3 p) const {
     switch (kind_) {
         case Kind::plane: return {p.x, p.y};
-        case Kind::cylinder: return {std::atan2(p.y, p.x), p.z};
+        case Kind::cylinder:
         case Kind::cone: {
-            const bool beyond = radius_ * cosine_ + sine_ * p.z < 0;  // the apex: on the negative nappe
-            const double rho = beyond ? -rho_of(p) : rho_of(p);
-            return {beyond ? std::atan2(-p.y, -p.x) : std::atan2(p.y, p.x), p.z * cosine_ + (rho - radius_) * sine_};
+            const auto [u, v] = unrolled(Point3<double>{p.x, p.y, p.z});
+            return {u, v};
         }
-        case Kind::sphere: return {std::atan2(p.y, p.x), std::atan2(p.z, rho_of(p))};
+        case Kind::sphere: return {arctangent2(p.y, p.x), arctangent2(p.z, rho_of(p))};
         default: {
             // Of a spindle's two sheets the one that is nearer.
             const double rho = rho_of(p), outer = std::hypot(rho - radius_, p.z), inner = std::hypot(rho + radius_, p.z);
-            if (minor_ > radius_ && std::abs(inner - minor_) < std::abs(outer - minor_)) return {std::atan2(-p.y, -p.x), std::atan2(p.z, -rho - radius_)};
-            return {std::atan2(p.y, p.x), std::atan2(p.z, rho - radius_)};
+            if (minor_ > radius_ && std::abs(inner - minor_) < std::abs(outer - minor_)) return {arctangent2(-p.y, -p.x), arctangent2(p.z, -rho - radius_)};
+            return {arctangent2(p.y, p.x), arctangent2(p.z, rho - radius_)};
         }
     }
 }

@@ -4,6 +4,7 @@
 #include "geometry/ray_view.h"
 #include "geometry/shape.h"
 #include "geometry/trimming.h"
+#include "math/arctangent.h"
 #include "math/bounds.h"
 #include "math/lanes.h"
 
@@ -26,6 +27,11 @@ struct LocalLine {
 template <class T>
 struct TwoRoots {
     T first, second;
+};
+
+template <class T>
+struct PlaneCoordinates {
+    T u, v;
 };
 
 class AnalyticSurface {
@@ -57,6 +63,9 @@ public:
         const Vec3 p = position - frame_.origin;
         return {dot(p, frame_.x), dot(p, frame_.y), dot(p, frame_.z)};
     }
+    // parameters() of points on a plane, cylinder or cone.
+    template <class T>
+    PlaneCoordinates<T> unrolled(const Point3<T>& local) const;
     // The parameters of a point on the surface: angles from -pi to pi.
     Point2 parameters(Vec3 local) const;
     Metric metric(Point2 p) const;
@@ -99,6 +108,15 @@ LocalLine<T> AnalyticSurface::into_frame(const Point3<T>& o, const Point3<T>& d)
     line.origin = {along(x, y, z, frame_.x), along(x, y, z, frame_.y), along(x, y, z, frame_.z)};
     line.direction = {along(d.x, d.y, d.z, frame_.x), along(d.x, d.y, d.z, frame_.y), along(d.x, d.y, d.z, frame_.z)};
     return line;
+}
+
+template <class T>
+PlaneCoordinates<T> AnalyticSurface::unrolled(const Point3<T>& p) const {
+    if (kind_ == Kind::plane) return {p.x, p.y};
+    if (kind_ == Kind::cylinder) return {arctangent2(p.y, p.x), p.z};
+    const auto beyond = radius_ * cosine_ + sine_ * p.z < 0.0;  // the apex: on the negative nappe
+    const T rho = square_root(p.x * p.x + p.y * p.y);
+    return {arctangent2<T>(beyond ? -p.y : p.y, beyond ? -p.x : p.x), p.z * cosine_ + ((beyond ? -rho : rho) - radius_) * sine_};
 }
 
 // Where a line meets the plane z = 0; not finite if it does not.

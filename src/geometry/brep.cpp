@@ -157,12 +157,15 @@ unsigned Brep::intersect(std::uint32_t part, const RayLanes& rays, unsigned acti
     // Lanes among `wanted` that have the root in reach and on the face.
     const auto take = [&](const Lanes& s, unsigned wanted) {
         const Lanes at = line.shift + s;
-        unsigned reached = bits_of((at > rays.t_min) & (at <= rays.t_max) & (at < far)) & wanted;
+        const unsigned reached = bits_of((at > rays.t_min) & (at <= rays.t_max) & (at < far)) & wanted;
         if (!reached) return;
         const Lanes x = fused_multiply_add(line.direction.x, s, line.origin.x), y = fused_multiply_add(line.direction.y, s, line.origin.y);
         const Lanes z = fused_multiply_add(line.direction.z, s, line.origin.z);
-        for (; reached; reached &= reached - 1) {
-            const int lane = __builtin_ctz(reached);
+        const auto [u, v] = surface.unrolled(Point3<Lanes>{x, y, z});
+        const Trimming::Sorted sorted = face.trimming.sort(u, v, reached);
+        if (sorted.inside) t = blend(sorted.inside, at, t), found |= sorted.inside;
+        for (unsigned open = sorted.open; open; open &= open - 1) {
+            const int lane = __builtin_ctz(open);
             if (belongs(part, face, ray_of(lane), {at[lane], {x[lane], y[lane], z[lane]}})) t[lane] = at[lane], found |= 1u << lane;
         }
     };

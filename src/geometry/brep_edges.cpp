@@ -193,6 +193,7 @@ private:
         Point2 foot;
         Vec3 below;
         if (patches) {
+            if (patches->surely_farther(leaf.patch_leaf, hit.position, 2 * hit.reach)) return {};
             const PatchRoot near = patches->locate(leaf.patch_leaf, hit.position);
             const ParameterBox range = patches->range(leaf.patch_leaf);
             if (!(near.u >= range.u0 && near.u <= range.u1 && near.v >= range.v0 && near.v <= range.v1)) return {};

@@ -117,6 +117,15 @@ struct PatchRay {
         delta = (reach + greater(greater(absolute(origin.x), absolute(origin.y)), absolute(origin.z))) * (16 * std::numeric_limits<double>::epsilon());
     }
 
+    PatchRay() = default;
+    // One of eight.
+    PatchRay<double> lane(int i) const {
+        const auto of = [i](const Point3<T>& p) { return Point3<double>{p.x[i], p.y[i], p.z[i]}; };
+        PatchRay<double> one;
+        one.origin = of(origin), one.direction = of(direction), one.across = of(across), one.up = of(up), one.speed = speed[i], one.delta = delta[i];
+        return one;
+    }
+
     // Whether all are numbers, and such that no product overflows.
     auto usable() const {
         constexpr double most = 1e100;

@@ -77,22 +77,24 @@ Bend bend_of(const BezierPatch& piece, const std::vector<Vec3>& at) {
     const double size = length(bend.normal);
     if (!(size > 0)) return bend;
     bend.normal = bend.normal / size;
-    // How much the normal changes along u and along v: a long strip of degree 1 along u may bend by its twist alone.
+    // How much the normal changes along u and along v: a long strip of degree 1 along u may bend by its twist alone. Compared with the last point along
+    // the way that has a normal: in a net that shrinks to a point at several rows no two neighbours may have one.
     std::vector<Vec3> normals(at.size());
     double bend_u = 0, bend_v = 0;
-    const auto change = [&](int i, int j, int k, int l) {
-        const Vec3 &a = normals[static_cast<std::size_t>(i * columns + j)], &b = normals[static_cast<std::size_t>(k * columns + l)];
-        return dot(a, a) > 0 && dot(b, b) > 0 ? length(a - b) : 0;
-    };
+    const auto normal_at = [&](int i, int j) -> Vec3& { return normals[static_cast<std::size_t>(i * columns + j)]; };
+    const auto exists = [](Vec3 n) { return dot(n, n) > 0; };
     for (int i = 0; i <= p; ++i) {
         for (int j = 0; j <= q; ++j) {
             const Vec3 n = cross(point(std::min(i + 1, p), j) - point(std::max(i - 1, 0), j), point(i, std::min(j + 1, q)) - point(i, std::max(j - 1, 0)));
             const double l = length(n);
             if (!(l > 1e-9 * size)) continue;
             bend.cosine = std::min(bend.cosine, dot(n, bend.normal) / l);
-            normals[static_cast<std::size_t>(i * columns + j)] = n / l;
-            if (i > 0) bend_u = std::max(bend_u, p * change(i, j, i - 1, j));
-            if (j > 0) bend_v = std::max(bend_v, q * change(i, j, i, j - 1));
+            normal_at(i, j) = n / l;
+            int above = i - 1, left = j - 1;
+            while (above >= 0 && !exists(normal_at(above, j))) --above;
+            while (left >= 0 && !exists(normal_at(i, left))) --left;
+            if (above >= 0) bend_u = std::max(bend_u, p * length(normal_at(i, j) - normal_at(above, j)) / (i - above));
+            if (left >= 0) bend_v = std::max(bend_v, q * length(normal_at(i, j) - normal_at(i, left)) / (j - left));
         }
     }
     double along_u = 0, along_v = 0, twist = 0;

@@ -68,6 +68,8 @@ public:
     PatchPoint at(std::uint32_t leaf, double u, double v) const;
     // The parameters of a point that is on the leaf but for rounding; u and v of the result, t: its distance along the leaf's mean normal.
     PatchRoot locate(std::uint32_t leaf, Vec3 position) const;
+    // Whether a point is sure to be farther from the leaf than `distance`: by slabs that hold the control points.
+    bool surely_farther(std::uint32_t leaf, Vec3 position, double distance) const;
     // What Shape::surface has to answer for a hit on the leaf at `position` (slot left at 0).
     SurfacePoint surface(std::uint32_t leaf, Vec3 position) const;
     // Bound on the distance of at().position from the true surface.

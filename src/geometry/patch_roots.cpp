@@ -201,6 +201,19 @@ void search(D degrees, const LeafPoints& points, const PatchRay<double>& ray, Bo
     }
 }
 
+// Of a leaf whose coefficients are in the box, after the first attempt left it undecided.
+template <class D>
+int searched_roots(D degrees, const LeafPoints& points, const PatchRay<double>& ray, Box<D>& box, const Ray& within, std::span<PatchRoot> out) {
+    box.u = box.v = 0, box.size_u = box.size_v = 1;
+    FoundList found(4 * ray.delta / ray.speed);
+    search(degrees, points, ray, box, found);
+    std::size_t count = 0;
+    for (const Found& root : found.sorted()) {
+        if (root.t > within.t_min && root.t <= within.t_max && root.t < HUGE_VAL && count < out.size()) out[count++] = {root.t, root.u, root.v};
+    }
+    return static_cast<int>(count);
+}
+
 template <class D>
 int roots_in(D degrees, const LeafPoints& points, const PatchRay<double>& ray, const Ray& within, std::span<PatchRoot> out) {
     if (!ray.usable() || out.empty()) return 0;
@@ -218,33 +231,36 @@ int roots_in(D degrees, const LeafPoints& points, const PatchRay<double>& ray, c
         out[0] = {t, first.u, first.v};
         return 1;
     }
-    box.u = box.v = 0, box.size_u = box.size_v = 1;
-    FoundList found(4 * ray.delta / ray.speed);
-    search(degrees, points, ray, box, found);
-    std::size_t count = 0;
-    for (const Found& root : found.sorted()) {
-        if (root.t > within.t_min && root.t <= within.t_max && root.t < HUGE_VAL && count < out.size()) out[count++] = {root.t, root.u, root.v};
-    }
-    return static_cast<int>(count);
+    return searched_roots(degrees, points, ray, box, within, out);
 }
 
-// The lanes that are decided, and of these which have a root.
-struct LaneAnswer {
-    unsigned decided, found;
-};
-
 template <class D>
-LaneAnswer roots_in(D degrees, const LeafPoints& points, const PatchRay<Lanes>& ray, LaneMask wanted, const RayLanes& within, PatchRootLanes& out) {
+unsigned roots_in(D degrees, const LeafPoints& points, const PatchRay<Lanes>& ray, unsigned active, const RayLanes& within, PatchRootLanes& out) {
     Lanes f[D::room], g[D::room];
     project(degrees, points, ray.origin, ray.across, f);
     project(degrees, points, ray.origin, ray.up, g);
-    const LaneMask usable = ray.usable();
-    const auto result = attempt<D, Lanes>(degrees, f, g, ray.delta, wanted & usable);
-    const unsigned decided = bits_of((!usable) | result.excluded | result.found);
-    if (!any(result.found)) return {decided, 0};
-    out.u = result.u, out.v = result.v;
-    out.t = parameter_at(degrees, points, ray, result.u, result.v);
-    return {decided, bits_of(result.found & (out.t > within.t_min) & (out.t <= within.t_max) & (out.t < HUGE_VAL))};
+    const LaneMask wanted = mask_of(active) & ray.usable();
+    const auto result = attempt<D, Lanes>(degrees, f, g, ray.delta, wanted);
+    unsigned found = 0;
+    if (any(result.found & wanted)) {
+        out.u = result.u, out.v = result.v;
+        out.t = parameter_at(degrees, points, ray, result.u, result.v);
+        found = bits_of(result.found & wanted & (out.t > within.t_min) & (out.t <= within.t_max) & (out.t < HUGE_VAL));
+    }
+    // What is undecided goes on from the coefficients, one ray at a time.
+    for (unsigned rest = bits_of(wanted & (!(result.excluded | result.found))); rest; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        Box<D> box;
+        for (int k = 0; k < degrees.count; ++k) box.f[k] = f[k][i], box.g[k] = g[k][i];
+        pad(degrees, box.f), pad(degrees, box.g);
+        PatchRoot root;
+        Ray one;
+        one.t_min = within.t_min[i], one.t_max = within.t_max[i];
+        if (searched_roots(degrees, points, ray.lane(i), box, one, {&root, 1}) == 0) continue;
+        out.t[i] = root.t, out.u[i] = root.u, out.v[i] = root.v;
+        found |= 1u << i;
+    }
+    return found;
 }
 
 template <class T>
@@ -281,15 +297,25 @@ struct PatchKernels {
         return count;
     }
 
-    static LaneAnswer roots(const PatchLeaves& leaves, const PatchLeaves::Leaf& leaf, const RayLanes& rays, LaneMask wanted, PatchRootLanes& out) {
+    static unsigned nearest(const PatchLeaves& leaves, std::uint32_t index, const RayLanes& rays, unsigned active, PatchRootLanes& out) {
+        const PatchLeaves::Leaf& leaf = leaves.leaves_[index];
         const LeafPoints control = points(leaves, leaf);
-        const auto from = patch_ray<Lanes>(rays.origin, rays.direction, leaf.center, leaf.blur_reach);
-        const LaneAnswer answer = visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) -> LaneAnswer {
-            if constexpr (std::is_same_v<decltype(degrees), AnyDegrees>) return {0, 0};
-            else return roots_in(degrees, control, from, wanted, rays, out);
+        return visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) {
+            unsigned found = 0;
+            if constexpr (std::is_same_v<decltype(degrees), AnyDegrees>) {
+                for (unsigned rest = active; rest; rest &= rest - 1) {
+                    const int i = __builtin_ctz(rest);
+                    const auto &o = rays.origin, &d = rays.direction;
+                    const Ray ray{{o.x[i], o.y[i], o.z[i]}, {d.x[i], d.y[i], d.z[i]}, rays.t_min[i], rays.t_max[i]};
+                    if (const auto root = leaves.nearest(index, ray)) out.t[i] = root->t, out.u[i] = root->u, out.v[i] = root->v, found |= 1u << i;
+                }
+            } else {
+                const auto from = patch_ray<Lanes>(rays.origin, rays.direction, leaf.center, leaf.blur_reach);
+                found = roots_in(degrees, control, from, active, rays, out);
+                if (found) out.u = leaf.u0 + out.u * (leaf.u1 - leaf.u0), out.v = leaf.v0 + out.v * (leaf.v1 - leaf.v0);
+            }
+            return found;
         });
-        if (answer.found) out.u = leaf.u0 + out.u * (leaf.u1 - leaf.u0), out.v = leaf.v0 + out.v * (leaf.v1 - leaf.v0);
-        return answer;
     }
 };
 
@@ -304,20 +330,7 @@ std::optional<PatchRoot> PatchLeaves::nearest(std::uint32_t leaf, const Ray& ray
 }
 
 unsigned PatchLeaves::nearest(std::uint32_t leaf, const RayLanes& rays, unsigned active, PatchRootLanes& roots) const {
-    LaneMask wanted{};
-    for (int i = 0; i < lane_count; ++i) wanted[i] = active >> i & 1 ? -1 : 0;
-    const LaneAnswer answer = PatchKernels::roots(*this, leaves_[leaf], rays, wanted, roots);
-    unsigned found = answer.found & active;
-    for (unsigned rest = active & ~answer.decided; rest; rest &= rest - 1) {
-        const int i = __builtin_ctz(rest);
-        const Ray ray{{rays.origin.x[i], rays.origin.y[i], rays.origin.z[i]}, {rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]},
-                      rays.t_min[i], rays.t_max[i]};
-        if (const auto root = nearest(leaf, ray)) {
-            roots.t[i] = root->t, roots.u[i] = root->u, roots.v[i] = root->v;
-            found |= 1u << i;
-        }
-    }
-    return found;
+    return PatchKernels::nearest(*this, leaf, rays, active, roots);
 }
 
 std::uint8_t patch_kernel_of(int degree_u, int degree_v) { return PatchKernels::kernel_of(degree_u, degree_v); }

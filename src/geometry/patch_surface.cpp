@@ -138,6 +138,28 @@ PatchPoint PatchLeaves::at(std::uint32_t index, double u, double v) const {
     return point;
 }
 
+bool PatchLeaves::surely_farther(std::uint32_t index, Vec3 position, double distance) const {
+    const Leaf& leaf = leaves_[index];
+    const int p = leaf.degree_u, q = leaf.degree_v, columns = q + 1, last = p * columns;
+    const std::size_t count = static_cast<std::size_t>(p + 1) * columns;
+    const double* x = points(leaf);
+    const auto point = [&](std::size_t k) { return Vec3{x[k], x[count + k], x[2 * count + k]} / (leaf.rational ? x[3 * count + k] : 1); };
+    const Vec3 off = position - leaf.center;
+    const Vec3 a = point(0), b = point(static_cast<std::size_t>(q)), c = point(static_cast<std::size_t>(last)), d = point(static_cast<std::size_t>(last + q));
+    // Along the normal, and across the four sides.
+    for (const Vec3 axis : {leaf.normal, cross(leaf.normal, b - a), cross(leaf.normal, d - c), cross(leaf.normal, c - a), cross(leaf.normal, d - b)}) {
+        const double size = length(axis), at = dot(axis, off);
+        if (!(size > 0)) continue;
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (std::size_t k = 0; k < count; ++k) {
+            const double reach = dot(axis, point(k));
+            low = std::min(low, reach), high = std::max(high, reach);
+        }
+        if (std::max(low - at, at - high) > size * (distance + 2 * error(index)) + 1e-6 * (high - low)) return true;
+    }
+    return false;
+}
+
 PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
     const Leaf& leaf = leaves_[index];
     // Newton's method on the leaf seen along its mean normal, where it is nearly a plane; sure to be right if it comes to rest on the point.

@@ -180,6 +180,76 @@ CurvePoint middle_of(const MonotonePiece& piece, const CurveStretch* stretch, co
     return {{0.5 * (piece.from.u + piece.to.u), 0.5 * (piece.from.v + piece.to.v)}, {piece.to.u - piece.from.u, piece.to.v - piece.from.v}};
 }
 
+namespace {
+
+// Control points of the part of a Bézier piece between two parameters: both ends are cut off by de Casteljau's scheme.
+std::vector<BezierPiece::Control> part_of(const BezierPiece& curve, double t0, double t1) {
+    std::vector<BezierPiece::Control> p = curve.points;
+    const auto mix = [](BezierPiece::Control a, BezierPiece::Control b, double t) {
+        return BezierPiece::Control{a.u + t * (b.u - a.u), a.v + t * (b.v - a.v), a.weight + t * (b.weight - a.weight)};
+    };
+    const auto keep_before = [&](double t) {
+        for (std::size_t n = 1; n < p.size(); ++n) {
+            for (std::size_t i = p.size() - 1; i >= n; --i) p[i] = mix(p[i - 1], p[i], t);
+        }
+    };
+    keep_before(t1);
+    std::reverse(p.begin(), p.end());
+    keep_before(t1 > 0 ? 1 - t0 / t1 : 0);
+    return p;
+}
+
+}  // namespace
+
+void measure_bulge(const MonotonePiece& piece, CurveStretch& stretch, const LoopPiece& curve) {
+    const Point2 chord{piece.to.u - piece.from.u, piece.to.v - piece.from.v};
+    const double length2 = chord.u * chord.u + chord.v * chord.v;
+    double low = 0, high = 0;
+    const auto include = [&](Point2 p) {
+        const double bulge = (chord.u * (p.v - piece.from.v) - chord.v * (p.u - piece.from.u)) / length2;
+        low = std::min(low, bulge), high = std::max(high, bulge);
+    };
+    if (const auto* bezier = std::get_if<BezierPiece>(&curve)) {
+        const auto [t0, t1] = std::minmax(stretch.t0, stretch.t1);
+        for (const auto& p : part_of(*bezier, t0, t1)) include({p.u / p.weight, p.v / p.weight});
+    } else {  // the corners of its box, ends before they were welded included
+        const Point2 first = evaluate(curve, stretch.t0).at, last = evaluate(curve, stretch.t1).at;
+        const auto [u0, u1] = std::minmax({piece.from.u, piece.to.u, first.u, last.u});
+        const auto [v0, v1] = std::minmax({piece.from.v, piece.to.v, first.v, last.v});
+        for (const double u : {u0, u1}) include({u, v0}), include({u, v1});
+    }
+    // Outward by a unit at least, for rounding.
+    low = std::floor(low / CurveStretch::bulge_unit) - 1, high = std::ceil(high / CurveStretch::bulge_unit) + 1;
+    const bool fits = low > -CurveStretch::no_bulge && high < CurveStretch::no_bulge;
+    stretch.low = static_cast<std::int16_t>(fits ? low : 0), stretch.high = static_cast<std::int16_t>(fits ? high : CurveStretch::no_bulge);
+}
+
+bool surely_farther(const MonotonePiece& piece, const CurveStretch& stretch, const LoopPiece& curve, Point2 p, const Metric& metric, double distance) {
+    constexpr double more = 1 + 1e-6;  // than rounding
+    const double uu = metric.uu, uv = metric.uv, vv = metric.vv, determinant = (uu * vv - uv * uv) - 1e-9 * uu * vv, distance2 = distance * distance * more;
+    if (!(determinant > 0)) return false;
+    // Off the strip about the chord: by Cauchy-Schwarz for the metric, a linear function with gradient n changes by at most sqrt(n G^-1 n) a unit of length.
+    const Point2 chord{piece.to.u - piece.from.u, piece.to.v - piece.from.v};
+    const double bulge = chord.u * (p.v - piece.from.v) - chord.v * (p.u - piece.from.u), unit = CurveStretch::bulge_unit * (chord.u * chord.u + chord.v * chord.v);
+    const double off = std::max(stretch.low * unit - bulge, bulge - stretch.high * unit);
+    if (stretch.high != CurveStretch::no_bulge && off > 0 && off * off * determinant > distance2 * (vv * chord.v * chord.v + 2 * uv * chord.u * chord.v + uu * chord.u * chord.u)) return true;
+    const auto* arc = std::get_if<ArcPiece>(&curve);
+    if (!arc) return false;
+    const auto near = [&](Point2 q) {  // the ends are welded, perhaps off the ellipse
+        const double u = q.u - p.u, v = q.v - p.v;
+        return uu * u * u + 2 * uv * u * v + vv * v * v <= distance2;
+    };
+    if (near(piece.from) || near(piece.to)) return false;
+    // Off the ellipse: where it is the unit circle, lengths are shorter by its least half axis at most, whose square is not less than det / trace.
+    const double area = arc->x.u * arc->y.v - arc->x.v * arc->y.u;
+    const Point2 d{p.u - arc->center.u, p.v - arc->center.v};
+    const double a = d.u * arc->y.v - d.v * arc->y.u, b = arc->x.u * d.v - arc->x.v * d.u;
+    const double apart = std::abs(std::sqrt(a * a + b * b) - std::abs(area)) - 1e-9 * std::abs(area);  // times the area
+    const double trace = uu * (arc->x.u * arc->x.u + arc->y.u * arc->y.u) + 2 * uv * (arc->x.u * arc->x.v + arc->y.u * arc->y.v) +
+                         vv * (arc->x.v * arc->x.v + arc->y.v * arc->y.v);
+    return apart > 0 && apart * apart * determinant > distance2 * trace;
+}
+
 NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, Point2 p, const Metric& metric) {
     const auto inner = [&](Point2 a, Point2 b) { return metric.uu * a.u * b.u + metric.uv * (a.u * b.v + a.v * b.u) + metric.vv * a.v * b.v; };
     const auto from_p = [&](Point2 q) { return Point2{q.u - p.u, q.v - p.v}; };

@@ -51,7 +51,13 @@ struct MonotonePiece {
 struct CurveStretch {
     double t0 = 0, t1 = 0;    // of `from` and `to`
     std::uint32_t curve = 0;  // arcs and Bézier pieces of the face
+    static constexpr double bulge_unit = 1.0 / (1 << 14);  // of the chord's length
+    static constexpr int no_bulge = 0x7fff;                // as `high`: not known
+    std::int16_t low = 0, high = no_bulge;  // how far the stretch bulges from its chord, on the right and on the left
 };
+
+// Fills in `low` and `high`: they hold the stretch for sure.
+void measure_bulge(const MonotonePiece& piece, CurveStretch& stretch, const LoopPiece& curve);
 
 // u of a monotone stretch where it has the given v, and the other way round. The value is kept between those of the ends.
 double u_at(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, double v);
@@ -66,6 +72,8 @@ struct NearestPoint {
     Point2 at, along;  // along: the direction of the stretch there, as middle_of has it
     double distance2 = 0;
 };
+// Whether the stretch is sure to be farther from p than `distance`, told without looking for the point.
+bool surely_farther(const MonotonePiece& piece, const CurveStretch& stretch, const LoopPiece& curve, Point2 p, const Metric& metric, double distance);
 NearestPoint nearest_point(const MonotonePiece& piece, const CurveStretch* stretch, const LoopPiece* curve, Point2 p, const Metric& metric);
 
 }  // namespace crescente::geometry

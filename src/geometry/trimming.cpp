@@ -131,7 +131,7 @@ Expected<void> Trimming::add_loop(const Loop& loop, std::size_t number, const Le
             for (std::size_t k = 1; k < stops[i].size(); ++k) {
                 const Point2 after = k + 1 == stops[i].size() ? to : evaluate(edge.piece, stops[i][k]).at;
                 pieces_.push_back({before, after, band, static_cast<std::uint32_t>(stretches_.size())});
-                stretches_.push_back({stops[i][k - 1], stops[i][k], curve});
+                measure_bulge(pieces_.back(), stretches_.emplace_back(CurveStretch{stops[i][k - 1], stops[i][k], curve}), edge.piece);
                 before = after;
             }
         }
@@ -238,6 +238,31 @@ bool Trimming::runs_right_of(const MonotonePiece& piece, Point2 p) const {
     return u_at(piece, stretch_of(piece), curve_of(piece), p.v) > p.u;
 }
 
+Trimming::Sorted Trimming::sort(const Lanes& u, const Lanes& v, unsigned wanted) const {
+    // As locate_periodic and place_of do it one by one.
+    Lanes at = u;
+    unsigned several = 0;
+    if (period_.u > 0) {
+        at = u + period_.u * rounded_up_to_integer((reach_.u0 - u) / period_.u);
+        several = bits_of(at + period_.u <= reach_.u1);
+    }
+    const unsigned near = bits_of((at >= reach_.u0) & (at <= reach_.u1) & (v >= reach_.v0) & (v <= reach_.v1)) & wanted;
+    Sorted sorted{0, near & several};
+    if (!(near & ~several)) return sorted;
+    const auto index = [](const Lanes& x, int count) {
+        const Lanes low = x < 0.0 ? Lanes{} : x, last = Lanes{} + (count - 1.0);
+        return __builtin_convertvector(low > last ? last : low, LaneMask);
+    };
+    const LaneMask column = index((at - inner_u_) * cells_per_u_ + 1.0, columns_), row = index((v - inner_v_) * cells_per_v_ + 1.0, rows_);
+    for (unsigned rest = near & ~several; rest; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const Cell state = cell(static_cast<int>(column[i]), static_cast<int>(row[i]));
+        if (state == Cell::inside) sorted.inside |= 1u << i;
+        if (state == Cell::boundary) sorted.open |= 1u << i;
+    }
+    return sorted;
+}
+
 bool Trimming::encloses(Point2 p, int row) const {
     bool inside = false;
     for (std::uint32_t k = row_begins_[row]; k < row_begins_[row + 1]; ++k) {
@@ -260,11 +285,7 @@ bool Trimming::any_near(Point2 p, const Metric& metric, Visit&& visit) const {
         const auto [v0, v1] = std::minmax(piece.from.v, piece.to.v);
         const double du = std::max({u0 - p.u, p.u - u1, 0.0}), dv = std::max({v0 - p.v, p.v - v1, 0.0});
         if (du * du * step_u2 > band2 || dv * dv * step_v2 > band2) continue;
-        if (const auto* arc = piece.is_line() ? nullptr : std::get_if<ArcPiece>(curve_of(piece)); arc && arc->x.u == arc->y.v && arc->x.v == -arc->y.u) {
-            // Far from a circle, told without a search.
-            const double off = std::hypot(p.u - arc->center.u, p.v - arc->center.v) - std::hypot(arc->x.u, arc->x.v);
-            if (off * off * std::min(step_u2, step_v2) * 0.5 > band2) continue;
-        }
+        if (!piece.is_line() && surely_farther(piece, stretches_[piece.stretch], *curve_of(piece), p, metric, piece.band)) continue;
         const NearestPoint near = nearest_point(piece, stretch_of(piece), curve_of(piece), p, metric);
         if (near.distance2 <= band2 && visit(piece, near)) return true;
     }

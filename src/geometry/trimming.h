@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "geometry/trim_curve.h"
+#include "math/lanes.h"
 
 namespace crescente::geometry {
 
@@ -38,6 +39,13 @@ public:
         if (period_.u == 0 && period_.v == 0) return place_of(p, metric);
         return locate_periodic(p, metric);
     }
+
+    // What the cells alone tell of eight points of a surface that is periodic in u or not at all: lanes that are inside and not near an edge, and the
+    // open ones, which locate() has to be asked about; all others are outside, bands included. As bits.
+    struct Sorted {
+        unsigned inside, open;
+    };
+    Sorted sort(const Lanes& u, const Lanes& v, unsigned wanted) const;
 
     // The edges within whose bands p lies, on either side, the nearest first. p as `Located` has it. By `metric` they are near; directions and distances
     // are those of `surface`.

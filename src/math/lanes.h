@@ -39,6 +39,15 @@ inline Lanes fused_multiply_add(Lanes a, Lanes b, Lanes c) {
 #endif
 }
 
+inline Lanes rounded_up_to_integer(Lanes x) {
+#if defined(__AVX512F__)
+    return reinterpret_cast<Lanes>(_mm512_maskz_roundscale_pd(0xff, reinterpret_cast<__m512d>(x), _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC));
+#else
+    for (int i = 0; i < lane_count; ++i) x[i] = std::ceil(x[i]);
+    return x;
+#endif
+}
+
 // A function of one double, lane after lane.
 inline double lane_by_lane(double x, auto&& f) { return f(x); }
 inline Lanes lane_by_lane(Lanes x, auto&& f) {
@@ -97,6 +106,16 @@ inline unsigned bits_of(LaneMask mask) {
     unsigned bits = 0;
     for (int i = 0; i < lane_count; ++i) bits |= mask[i] ? 1u << i : 0u;
     return bits;
+#endif
+}
+
+inline LaneMask mask_of(unsigned lanes) {
+#if defined(__AVX512DQ__)
+    return reinterpret_cast<LaneMask>(_mm512_movm_epi64(static_cast<__mmask8>(lanes)));
+#else
+    LaneMask mask{};
+    for (int i = 0; i < lane_count; ++i) mask[i] = lanes >> i & 1 ? -1 : 0;
+    return mask;
 #endif
 }
 

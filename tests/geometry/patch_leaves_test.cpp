@@ -157,6 +157,23 @@ void check_degrees(int p, int q, bool rational, double wave) {
     }
 }
 
+// Rows of the net that are points have no normals, nor are there two in a row beside them: halving must go on along both ways all the same.
+TEST(PatchLeaves, NetsThatShrinkToPointsMakeFewLeaves) {
+    const double ring[4][2] = {{1, 0}, {1, -0.56}, {0.56, -1}, {0, -1}}, profile[4][2] = {{0, 3.15}, {0.8, 3.15}, {0, 2.85}, {0.2, 2.7}};  // the teapot's knob
+    BezierPatch patch{3, 3, false, 0, 1, 0, 1, {}}, turned = patch;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            const auto at = [&](int along, int around) { return ControlPoint{{ring[around][0] * profile[along][0], ring[around][1] * profile[along][0], profile[along][1]}, 1}; };
+            patch.points.push_back(at(i, j)), turned.points.push_back(at(j, i));
+        }
+    }
+    for (const BezierPatch& knob : {patch, turned}) {
+        const PatchLeaves leaves(std::array{knob});
+        EXPECT_GT(leaves.count(), 20u);
+        EXPECT_LT(leaves.count(), 150u);
+    }
+}
+
 TEST(PatchLeaves, Bilinear) { check_degrees(1, 1, false, 1); }
 TEST(PatchLeaves, LinearBySquare) { check_degrees(1, 2, false, 0.7), check_degrees(2, 1, true, 0.7); }
 TEST(PatchLeaves, Biquadratic) { check_degrees(2, 2, false, 0.7), check_degrees(2, 2, true, 0.7); }
