@@ -415,12 +415,20 @@ TEST(EditScript, EveryBadLineIsTold) {
     ASSERT_FALSE(lines);
     EXPECT_EQ(lines.error().kind, ErrorKind::input);
     const std::string text = lines.error().text();
-    for (const char* part : {"s.jsonl: line 2, column 9", "s.jsonl: line 3, /undo: must be a whole number", "line 4, /advance/second: 'second' is not known here (did you mean 'seconds'?)",
+    for (const char* part : {"s.jsonl: line 2, column 13: syntax error", "s.jsonl: line 3, /undo: must be a whole number", "line 4, /advance/second: 'second' is not known here (did you mean 'seconds'?)",
                              "line 5, /advance/level: 'shadow' is no choice for level (did you mean 'shadows'?)", "line 6, /advance/seconds: must be a number from 0 to 1e6",
                              "line 7, /picture: must be the path", "line 8, /hid: 'hid' is not known here (did you mean 'hide'?)",
                              "line 9, /udo: 'udo' is not known here (did you mean 'undo'?)", "line 10, /redo: must be", "line 11, column"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << "\nin\n" << text;
     }
+}
+
+TEST(EditReference, ItsExampleIsAScript) {
+    const std::string page = edit_reference();
+    const std::size_t begin = page.find("```json\n") + 8;
+    const auto lines = read_edit_script(page.substr(begin, page.find("```", begin) - begin), "edits.md");
+    ASSERT_TRUE(lines) << lines.error().text();
+    EXPECT_GT(lines->size(), 10u);
 }
 
 TEST(EditReference, TheCommittedPageIsGenerated) {

@@ -61,6 +61,8 @@ Expected<void> write_pictures(const render::Session& session, const std::vector<
 std::optional<FreshRender> render_fresh(render::Session& session, const StopRequests& stop, bool quiet) {
     constexpr auto between_updates = std::chrono::milliseconds(100);
     ProgressDisplay display(quiet, std::nullopt);
+    const scene::Settings& settings = session.scene().settings;
+    display.announce("rendering " + std::to_string(settings.width) + "x" + std::to_string(settings.height));
     render::Progress progress;
     while (!progress.done) {
         progress = session.advance({std::chrono::steady_clock::now() + between_updates, &stop.asked()});
