@@ -52,6 +52,8 @@ scene::Scene bumpy_sphere() {
     return scene;
 }
 
+std::string root() { return CRESCENTE_ROOT; }
+
 scene::Scene load(const std::string& file_name) {
     const std::string file = std::string(CRESCENTE_ROOT "/scenes/") + file_name;
     auto loaded = io::read_scene(file);

@@ -26,6 +26,10 @@ public:
             change_.sky = true;
             change_.all_lit = true;
         }
+        change_.lobes_only = change_.any_lobes && !change_.touches_more_than_lobes();
+        for (std::size_t i = 0; i < change_.lobes.size(); ++i) {
+            if (change_.lobes[i].light) change_.lobes_bits |= std::uint64_t{1} << i % 64;
+        }
         return std::move(change_);
     }
 
@@ -51,7 +55,8 @@ private:
     LobesChange difference(const Lobes& a, const Lobes& b) {
         if (a == b) return {};
         if (a.attenuation != b.attenuation || ((before_.absorbs || now_.absorbs) && (a.goes_on() || b.goes_on()))) change_.anew = true;
-        return {true, a.ior != b.ior};
+        change_.any_lobes = true;
+        return change_between(a, b);
     }
 
     void compare_instances() {
@@ -75,6 +80,7 @@ private:
                 continue;
             }
             change_.instance_now[was] = i;
+            change_.renumbered = change_.renumbered || was != i;
             compare_slots(was, i);
         }
         for (std::uint32_t i = 0; i < before_.instances.size(); ++i) {
@@ -111,7 +117,7 @@ private:
         bool filters = false;
         for (std::size_t k = 0; k < slots; ++k) {
             const std::uint32_t a = x[std::min(k, x.size() - 1)], b = y[std::min(k, y.size() - 1)];
-            if (a != b) change_.reassigned[i] = true;
+            if (a != b) change_.reassigned[i] = change_.any_reassigned = true;
             const Lobes &from = before_.lobes[a], &to = now_.lobes[b];
             filters = filters || from.shadow_filter != to.shadow_filter;
             if (from.attenuation != to.attenuation) change_.anew = true;
@@ -162,11 +168,13 @@ private:
 
 }  // namespace
 
-bool Change::touches_trees() const {
-    const auto lit = [](const LobesChange& l) { return l.light; };
-    return anew || !same_geometry || !light_went.empty() || !light_came.empty() || all_lit || sky || frontier || splitting || stages ||
-           std::find(reassigned.begin(), reassigned.end(), 1) != reassigned.end() || std::any_of(lobes.begin(), lobes.end(), lit) ||
-           lights_before != lights.size() || std::any_of(lights.begin(), lights.end(), [](LightChange l) { return l != LightChange::none; });
+LobesChange change_between(const Lobes& before, const Lobes& now) {
+    return {before != now, !send_same_rays(before, now), before.ior != now.ior};
+}
+
+bool Change::touches_more_than_lobes() const {
+    return anew || !same_geometry || renumbered || !light_went.empty() || !light_came.empty() || all_lit || sky || frontier || splitting || stages ||
+           any_reassigned || lights_before != lights.size() || std::any_of(lights.begin(), lights.end(), [](LightChange l) { return l != LightChange::none; });
 }
 
 Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped) {

@@ -18,9 +18,11 @@ enum class LightChange : std::uint8_t {
 
 // What became of a material.
 struct LobesChange {
-    bool light = false;   // what it sends back, or the weights of its rays
+    bool light = false;   // what it sends back
+    bool rays = false;    // the rays that it sends, or their weights
     bool bends = false;   // where refracted rays go
 };
+LobesChange change_between(const Lobes& before, const Lobes& now);
 
 struct Change {
     bool anew = false;           // everything on the way from the camera: trees begin again
@@ -29,11 +31,16 @@ struct Change {
     // Instances. A ray that ended on one that is gone is traced again; one that passes the box of one that came may now end there.
     std::vector<std::uint32_t> instance_now;  // by index before; no_node: gone, or moved, or of another shape
     std::vector<Bounds> came;                 // as they are now
+    bool renumbered = false;                  // some instance that stays has another index now
     // Of what may pass or keep light that did not, or did, before: boxes of instances that went, or came, or let light through otherwise.
     std::vector<Bounds> light_went, light_came;
 
     std::vector<std::uint8_t> reassigned;     // by instance now: it may be of other materials
+    bool any_reassigned = false;
     std::vector<LobesChange> lobes;           // by index of lobes now
+    bool any_lobes = false;
+    bool lobes_only = false;                  // nothing else
+    std::uint64_t lobes_bits = 0;             // those that changed, by index modulo 64
     bool all_lit = false;                     // what surrounds the scene lights surfaces otherwise
 
     std::vector<std::uint32_t> light_before;  // by light now; no_node: it is new
@@ -46,7 +53,8 @@ struct Change {
     bool splitting = false;  // which pixels are split, or how often
     bool stages = false;     // the levels' stages are others
 
-    bool touches_trees() const;
+    bool touches_trees() const { return any_lobes || touches_more_than_lobes(); }
+    bool touches_more_than_lobes() const;
 };
 
 // Of the world before only what was derived from its scene is looked at, not the scene, of which `settings_before` are given. `reshaped`: shapes that

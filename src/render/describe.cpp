@@ -83,6 +83,25 @@ std::size_t splits(const Tile& tile, const Quad& quad) {
     return sum;
 }
 
+// The five roots that split a quad, whose top left corner and size are given in pixels, and those that split its parts.
+void describe_parts(const Tile& tile, const World& world, const std::vector<Rgb>& radiance, const Quad& quad, double x, double y, double size,
+                    std::string& out) {
+    if (quad.parts == no_node) return;
+    const double half = size / 2;
+    const auto describe_root = [&](std::uint32_t part, std::uint32_t corner, double dx, double dy) {
+        out += format("at %g,%g\n", x + dx, y + dy);
+        describe_node(tile, world, radiance, tile.quads[quad.parts + part].corners[corner], "camera", 1, out);
+    };
+    describe_root(0, 1, half, 0);
+    describe_root(0, 2, 0, half);
+    describe_root(0, 3, half, half);
+    describe_root(1, 3, size, half);
+    describe_root(2, 3, half, size);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        describe_parts(tile, world, radiance, tile.quads[quad.parts + k], x + (k & 1 ? half : 0), y + (k & 2 ? half : 0), half, out);
+    }
+}
+
 }  // namespace
 
 std::string describe_pixel(const Tile& tile, const World& world, int x, int y) {
@@ -100,6 +119,7 @@ std::string describe_pixel(const Tile& tile, const World& world, int x, int y) {
     }
     if (!tile.quads.empty()) {
         out += format("split %zu times\n", splits(tile, tile.quads[static_cast<std::size_t>(y) * tile.width + x]));
+        describe_parts(tile, world, radiance, tile.quads[static_cast<std::size_t>(y) * tile.width + x], tile.x0 + x, tile.y0 + y, 1, out);
     }
     return out;
 }

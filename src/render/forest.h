@@ -97,6 +97,11 @@ struct Tile {
     bool going_on = false;    // dropped before it was finished, and being grown anew to the end
     bool lit = true;          // false: some nodes wait for their light
 
+    std::uint64_t materials = 0;  // bit i: some node may be of a material whose index is i modulo 64
+    std::uint64_t revision = 0;  // edits of the session that the trees know
+    bool unsettled = false;      // an edit touched the trees, and what is missing in them has not been looked for
+    bool untried = false;        // with that: ways of lights to nodes are not known any more
+
     RayCounts rays;
     TestCounts tests;
 

@@ -102,6 +102,7 @@ void Growth::append() {
             node.instance = hit.instance;
             node.primitive = hit.primitive;
             node.material = at.material[i];
+            tile_.materials |= std::uint64_t{1} << node.material % 64;
             if (world_.absorbs) node.weight *= transmittance(world_, tile_, static_cast<std::uint32_t>(first + block + i), hit.t);
         }
     }

@@ -65,7 +65,54 @@ std::array<LatticePoint, 5> split_points(LatticePoint at, std::uint32_t size) {
     return {{{at.x + half, at.y}, {at.x, at.y + half}, {at.x + half, at.y + half}, {at.x + size, at.y + half}, {at.x + half, at.y + size}}};
 }
 
+bool splits_hold(const std::vector<Quad>& quads, const Quad& quad, const std::vector<Rgb>& radiance, int depth, const scene::Settings& settings) {
+    std::array<Rgb, 4> corners;
+    for (int k = 0; k < 4; ++k) {
+        if (quad.corners[k] == no_node) return false;
+        corners[k] = perceived(radiance[quad.corners[k]]);
+    }
+    if (depth == settings.supersampling) return quad.parts == no_node;
+    if (differ(corners, static_cast<float>(settings.contrast)) != (quad.parts != no_node)) return false;
+    for (std::uint32_t k = 0; k < 4 && quad.parts != no_node; ++k) {
+        if (!splits_hold(quads, quads[quad.parts + k], radiance, depth + 1, settings)) return false;
+    }
+    return true;
+}
+
+void keep_roots_of_parts(const std::vector<Quad>& quads, const Quad& quad, LatticePoint at, std::uint32_t size, Tile& tile) {
+    if (quad.parts == no_node) return;
+    const std::uint32_t half = size / 2;
+    const auto points = split_points(at, size);
+    const auto root = [&](std::uint32_t part, std::uint32_t corner) { return quads[quad.parts + part].corners[corner]; };
+    const std::array roots{root(0, 1), root(0, 2), root(0, 3), root(1, 3), root(2, 3)};
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        if (roots[k] != no_node) tile.subpixel_roots.emplace(key_of(points[k]), roots[k]);
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) keep_roots_of_parts(quads, quads[quad.parts + k], {at.x + (k & 1 ? half : 0), at.y + (k & 2 ? half : 0)}, half, tile);
+}
+
 }  // namespace
+
+bool splits_hold(const Tile& tile, const scene::Settings& settings) {
+    if (tile.quads.empty()) return settings.supersampling == 0 || settings.level < scene::Level::edges;
+    const std::vector<Rgb> radiance = radiances(tile);
+    const std::size_t pixels = static_cast<std::size_t>(tile.width) * tile.height;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (!splits_hold(tile.quads, tile.quads[i], radiance, 0, settings)) return false;
+    }
+    return true;
+}
+
+void unsplit(Tile& tile, const scene::Settings& settings) {
+    const bool splits = settings.supersampling > 0 && settings.level == scene::Level::edges;
+    for (const std::vector<Quad>* quads : {&tile.quads, &tile.quads_before}) {
+        if (quads->empty() || !splits) continue;
+        for (const Place& place : quads_at_depth(tile, 0)) keep_roots_of_parts(*quads, (*quads)[place.quad], place.at, 1u << subpixel_bits, tile);
+    }
+    if (!tile.quads.empty()) tile.quads_before = std::move(tile.quads);
+    tile.quads = {};
+    if (!splits) tile.quads_before = {}, tile.subpixel_roots = {};
+}
 
 std::vector<Stage> edges_stages(const scene::Settings& settings) {
     std::vector<Stage> stages;

@@ -139,6 +139,11 @@ float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {
     return static_cast<float>(fresnel_dielectric(cosine, inside ? 1 / lobes.ior : lobes.ior));
 }
 
+bool send_same_rays(const Lobes& a, const Lobes& b) {
+    return a.mirror == b.mirror && a.refraction == b.refraction && a.straight == b.straight && a.ior == b.ior && a.fresnel == b.fresnel &&
+           a.metal == b.metal && a.metal_share == b.metal_share && a.coverage == b.coverage && a.mirror_share == b.mirror_share;
+}
+
 ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
     ChildWeights weights{lobes.mirror, lobes.refraction};
     const double eta = inside ? 1 / lobes.ior : lobes.ior;

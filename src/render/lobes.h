@@ -76,4 +76,7 @@ struct ChildWeights {
 };
 ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside);
 
+// Whether both send the same rays with the same weights from every hit.
+bool send_same_rays(const Lobes& a, const Lobes& b);
+
 }  // namespace crescente::render

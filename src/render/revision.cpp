@@ -1,10 +1,13 @@
 #include "render/revision.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "render/environment.h"
 #include "render/film.h"
 #include "render/growth.h"
+#include "render/level_edges.h"
+#include "render/level_visible.h"
 
 namespace crescente::render {
 namespace {
@@ -32,6 +35,9 @@ bool passes_any(const std::vector<Bounds>& boxes, Vec3 origin, Vec3 direction, d
     return std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return passes(box, origin, direction, end); });
 }
 
+// The stage that sends a camera ray through every corner that has none.
+int all_roots(const scene::Settings& settings) { return static_cast<int>(visible_stages(settings).size()) - 1; }
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
@@ -39,27 +45,30 @@ class Reviser {
 public:
     Reviser(Tile& tile, const World& before, const World& now, const Change& change) : tile_(tile), before_(before), now_(now), change_(change) {}
 
-    bool run(int repeated) {
-        place_roots();
-        find_lost_rays();
+    void run() {
+        const std::size_t count = tile_.nodes.size();
+        lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
         const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
-        if (outdated) touched_ = true;
+        const bool rays_may_end_elsewhere = !change_.same_geometry;
+        if (rays_may_end_elsewhere || change_.sky) place_roots();
+        if (rays_may_end_elsewhere) find_lost_rays();
         if (lost_roots_) tile_.pixels = develop(tile_);
         if (lost_roots_ || outdated) tile_.pixels_stage = tile_.lit ? -1 : 0;
-        update_nodes();
-        std::move(tile_.growing.begin(), tile_.growing.end(), std::back_inserter(tile_.pending));
-        tile_.growing.clear();
-        respawn();
+        if (rays_may_end_elsewhere || change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
+            update_nodes();
+        }
+        if (!tile_.growing.empty()) {  // stopped amid splitting, which is then begun again
+            std::move(tile_.growing.begin(), tile_.growing.end(), std::back_inserter(tile_.pending));
+            tile_.growing.clear();
+            touched_ = true;
+        }
+        if (lost_any_ || spawns_again_) respawn();
         update_shares();
-        if (!touched_ && !change_.frontier && !change_.splitting && !change_.stages) return false;
-        keep_lattice();
-        compact();
-        if (!now_.absorbs) weigh();
-        if (now_.scene.settings.level == scene::Level::visible) light_again();
-        tile_.todo.clear();
-        tile_.cursor = 0;
-        tile_.stage = std::min(tile_.stage, repeated);
-        return true;
+        if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
+        touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
+        if (lost_any_) compact();
+        if (!now_.absorbs && (weights_changed_ || change_.frontier || spawns_again_)) weigh();
+        tile_.unsettled = tile_.unsettled || touched_;
     }
 
 private:
@@ -95,21 +104,15 @@ private:
 
     // Rays that ended on what is gone, or that may now end earlier.
     void find_lost_rays() {
-        const std::size_t count = tile_.nodes.size();
-        lost_.assign(count, false);
-        spawn_again_.assign(count, false);
-        bends_.assign(count, false);
-        for (std::uint32_t i = 0; i < count; ++i) {
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
             const Node& node = tile_.nodes[i];
             const bool root = node.parent == no_node;
-            if (root && place_[i] == nowhere) {
-                lost_[i] = true;
-                continue;
-            }
-            if (!is_lost(i)) continue;
-            lost_[i] = touched_ = true;
+            const bool forgotten = root && place_[i] == nowhere;  // of a pixel that is no longer split
+            if (!forgotten && !is_lost(i)) continue;
+            lost_[i] = lost_any_ = true;
+            if (forgotten) continue;
             if (root) lost_roots_ = true;
-            else spawn_again_[node.parent] = true;
+            else spawn_again_[node.parent] = spawns_again_ = true;
         }
     }
     bool is_lost(std::uint32_t i) const {
@@ -142,13 +145,14 @@ private:
                 const auto surface = geometry::surface(*instance.shape, node.primitive, instance.to_local.point(node.position));
                 const std::uint32_t material = now_.material(node.instance, surface.slot);
                 const Lobes &from = before_.lobes[node.material], &to = now_.lobes[material];
-                lobes = {from != to, from.ior != to.ior};
+                lobes = change_between(from, to);
                 node.material = material;
+                tile_.materials |= std::uint64_t{1} << material % 64;
             } else {
                 lobes = change_.lobes[node.material];
             }
             if (lobes.light || change_.all_lit) relight(node);
-            if (lobes.light || change_.depth) spawn_again_[i] = true;
+            if (lobes.rays || change_.depth) spawn_again_[i] = spawns_again_ = true;
             if (lobes.bends) bends_[i] = true;
         }
     }
@@ -190,8 +194,8 @@ private:
                 const Pending* ray = rays[static_cast<std::size_t>(way)];
                 const std::uint32_t child = child_of(i, way);
                 const bool holds = child != no_node && !lost_[child] && ray && !(way == Way::refracted && bends_[i]);
-                if (child != no_node && !holds) lost_[child] = touched_ = true;
-                if (holds && tile_.nodes[child].weight != ray->weight && !now_.absorbs) tile_.nodes[child].weight = ray->weight, touched_ = true;
+                if (child != no_node && !holds) lost_[child] = lost_any_ = true;
+                if (holds && tile_.nodes[child].weight != ray->weight && !now_.absorbs) tile_.nodes[child].weight = ray->weight, weights_changed_ = true;
                 if (ray && !holds) missing.push_back(*ray);
             }
         }
@@ -222,6 +226,7 @@ private:
                 if (holds) shares[i * now + l] = share;
                 // The strength of a light that does not arrive does not matter.
                 const bool arrives = share != Share::blocked && share != Share::behind;
+                tile_.untried = tile_.untried || !holds || (share == Share::untried && was == no_node);
                 if (!holds || (change_.lights[l] != LightChange::none && arrives)) relight(node);
             }
         }
@@ -248,21 +253,6 @@ private:
         return !(may_open && passes_any(change_.light_went, node.position, way, end)) && !(may_close && passes_any(change_.light_came, node.position, way, end));
     }
 
-    // Roots inside pixels are found by their place when pixels are split anew.
-    void keep_lattice() {
-        tile_.subpixel_roots.clear();
-        const bool splits = now_.scene.settings.supersampling > 0 && now_.scene.settings.level == scene::Level::edges;
-        constexpr std::uint32_t whole = (1u << subpixel_bits) - 1;
-        for (std::uint32_t i = 0; i < tile_.nodes.size() && splits; ++i) {
-            if (lost_[i] || place_[i] == nowhere) continue;
-            const LatticePoint at = point_of(place_[i]);
-            if ((at.x & whole) || (at.y & whole)) tile_.subpixel_roots.emplace(place_[i], i);
-        }
-        if (!tile_.quads.empty()) tile_.quads_before = std::move(tile_.quads);
-        tile_.quads.clear();
-        if (!splits) tile_.quads_before = {};
-    }
-
     // Takes lost nodes out. The others keep their order, so that children still come after their parents.
     void compact() {
         std::vector<std::uint32_t> index(tile_.nodes.size(), no_node);
@@ -270,7 +260,6 @@ private:
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
             if (!lost_[i]) index[i] = count++;
         }
-        if (count == tile_.nodes.size()) return;
         const auto now_at = [&](std::uint32_t i) { return i == no_node ? no_node : index[i]; };
         const std::size_t lights = now_.lights.size();
         tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
@@ -294,9 +283,12 @@ private:
         }
         tile_.straight = std::move(straight);
         for (std::uint32_t& root : tile_.corners) root = now_at(root);
+        std::erase_if(tile_.subpixel_roots, [&](const auto& entry) { return index[entry.second] == no_node; });
         for (auto& [key, root] : tile_.subpixel_roots) root = index[root];
-        for (Quad& quad : tile_.quads_before) {
-            for (std::uint32_t& root : quad.corners) root = now_at(root);
+        for (std::vector<Quad>* quads : {&tile_.quads, &tile_.quads_before}) {
+            for (Quad& quad : *quads) {
+                for (std::uint32_t& root : quad.corners) root = now_at(root);
+            }
         }
         for (Pending& pending : tile_.pending) pending.parent = index[pending.parent];
     }
@@ -320,22 +312,12 @@ private:
         for (Pending& p : tile_.pending) p.influence = unseen[p.parent] ? 0 : max_component(influence[p.parent] * p.weight);
     }
 
-    // Where the picture has no shadows no stage lights what is there.
-    void light_again() {
-        std::vector<std::uint32_t> nodes;
-        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) nodes.push_back(i);
-        Growth growth(now_, tile_, false);
-        for (std::size_t i = 0; i < nodes.size(); i += chunk_size) {
-            growth.light(std::span(nodes).subspan(i, std::min(chunk_size, nodes.size() - i)), false, accel::Coherence::coherent);
-        }
-    }
-
     Tile& tile_;
     const World &before_, &now_;
     const Change& change_;
     std::vector<std::uint64_t> place_;  // by node: key of a root's point
-    std::vector<bool> lost_, spawn_again_, bends_;
-    bool lost_roots_ = false, touched_ = false;
+    std::vector<std::uint8_t> lost_, spawn_again_, bends_;  // by node
+    bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false;
 };
 
 // The tile without its trees; its picture stays until there is another.
@@ -344,18 +326,56 @@ void begin_anew(Tile& tile) {
     rest.x0 = tile.x0, rest.y0 = tile.y0, rest.width = tile.width, rest.height = tile.height;
     rest.pixels = develop(tile);
     rest.rays = tile.rays, rest.tests = tile.tests;
+    rest.revision = tile.revision;
     tile = std::move(rest);
+}
+
+// Lights the nodes that wait for it.
+void light_again(Tile& tile, const World& world) {
+    const bool shadows = world.scene.settings.level >= scene::Level::shadows;
+    Growth growth(world, tile, false);
+    std::vector<std::uint32_t> chunk;
+    for (std::uint32_t i = 0; i < tile.nodes.size();) {
+        chunk.clear();
+        for (; i < tile.nodes.size() && chunk.size() < chunk_size; ++i) {
+            if (!tile.nodes[i].shadowed) chunk.push_back(i);
+        }
+        growth.light(chunk, shadows, accel::Coherence::coherent);
+    }
 }
 
 }  // namespace
 
-bool revise(Tile& tile, const World& before, const World& now, const Change& change, int repeated) {
-    if (!change.touches_trees()) return false;
-    if (change.anew || tile.nodes.empty()) {
-        begin_anew(tile);
-        return true;
-    }
-    return Reviser(tile, before, now, change).run(repeated);
+void revise(Tile& tile, const World& before, const World& now, const Change& change) {
+    if (!change.touches_trees()) return;
+    if (change.anew || tile.nodes.empty()) return begin_anew(tile);
+    if (change.lobes_only && !(change.lobes_bits & tile.materials)) return;
+    Reviser(tile, before, now, change).run();
+}
+
+void settle(Tile& tile, const World& world, std::span<const scene::Level> level_of_stage) {
+    if (!std::exchange(tile.unsettled, false)) return;
+    const scene::Settings& settings = world.scene.settings;
+    const auto first_of = [&](scene::Level level) {
+        return static_cast<int>(std::find(level_of_stage.begin(), level_of_stage.end(), level) - level_of_stage.begin());
+    };
+    const int shadows = first_of(scene::Level::shadows), reflections = first_of(scene::Level::reflections), edges = first_of(scene::Level::edges);
+    const bool untried = std::exchange(tile.untried, false);
+    const auto is_missing = [](std::uint32_t root) { return root == no_node; };
+    const auto shows = [&](const Pending& p) { return p.influence > settings.threshold; };
+
+    int stage = static_cast<int>(level_of_stage.size());
+    // Later stages begin with all nodes lit; where the picture has no shadows no stage lights what is there.
+    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) light_again(tile, world);
+    else stage = std::min(stage, shadows);
+    if (std::any_of(tile.corners.begin(), tile.corners.end(), is_missing)) stage = std::min(stage, all_roots(settings));
+    if (std::any_of(tile.pending.begin(), tile.pending.end(), shows)) stage = std::min(stage, reflections);
+    tile.todo.clear();
+    tile.cursor = 0;
+    const int complete = static_cast<int>(level_of_stage.size());
+    if (tile.stage == complete && stage == complete && splits_hold(tile, settings)) return;
+    unsplit(tile, settings);
+    tile.stage = std::min({tile.stage, stage, edges});
 }
 
 }  // namespace crescente::render

@@ -1,6 +1,7 @@
 #include "render/session.h"
 
 #include <algorithm>
+#include <deque>
 #include <mutex>
 #include <utility>
 
@@ -30,6 +31,14 @@ struct Session::State {
     std::atomic<std::uint64_t> dropped_bytes = 0, dropped_nodes = 0;  // of finished tiles that were not kept
     std::mutex spare_mutex;
     std::vector<std::vector<Node>> spare_nodes;  // memory of dropped tiles, for the next ones
+    // Edits that some tiles do not know yet: the world before each, and what it changed. The first is edit number `edits - steps.size()`.
+    struct Step {
+        std::unique_ptr<World> before;
+        Change change;
+    };
+    std::deque<Step> steps;
+    std::uint64_t edits = 0;
+    std::atomic<std::uint64_t> revised = 0;      // times that an edit touched a tile
     RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
     TestCounts past_tests;
 
@@ -40,7 +49,8 @@ struct Session::State {
 
     void plan_stages();
     void cut_tiles();
-    int every_corner() const;  // the stage that sends a camera ray through every corner that has none
+    void catch_up(Tile& tile);
+    bool catch_up(const Deadline& deadline);  // all tiles; whether there was time for it
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
     Tile regrown(const Tile& tile) const;
     static std::vector<Node> drop(Tile& tile);  // gives the memory of its nodes
@@ -57,6 +67,7 @@ const LevelKind& kind_of(scene::Level level) { return levels()[static_cast<std::
 Tile blank_tile(const Tile& place) {
     Tile tile;
     tile.x0 = place.x0, tile.y0 = place.y0, tile.width = place.width, tile.height = place.height;
+    tile.revision = place.revision;
     return tile;
 }
 
@@ -77,9 +88,26 @@ void Session::State::plan_stages() {
     level_rays.resize(levels().size());
 }
 
-int Session::State::every_corner() const {
-    const auto last = std::find_if(level_of_stage.begin(), level_of_stage.end(), [](scene::Level level) { return level != scene::Level::visible; });
-    return static_cast<int>(last - level_of_stage.begin()) - 1;
+void Session::State::catch_up(Tile& tile) {
+    if (tile.revision == edits) return;
+    for (std::size_t i = steps.size() - static_cast<std::size_t>(edits - tile.revision); i < steps.size(); ++i) {
+        revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change);
+    }
+    revised += tile.unsettled || tile.nodes.empty();
+    settle(tile, *world, level_of_stage);
+    tile.revision = edits;
+}
+
+bool Session::State::catch_up(const Deadline& deadline) {
+    if (steps.empty()) return true;
+    std::atomic<bool> all = true;
+    pool.for_each(tiles.size(), [&](std::size_t i) {
+        if (tiles[i].revision == edits) return;
+        if (deadline.passed()) all = false;
+        else catch_up(tiles[i]);
+    });
+    if (all) steps.clear();
+    return all;
 }
 
 void Session::State::cut_tiles() {
@@ -90,6 +118,7 @@ void Session::State::cut_tiles() {
             Tile& tile = tiles.emplace_back();
             tile.x0 = x, tile.y0 = y;
             tile.width = std::min(tile_size(), width() - x), tile.height = std::min(tile_size(), height() - y);
+            tile.revision = edits;
         }
     }
 }
@@ -155,7 +184,11 @@ void Session::State::drop_finished(Tile& tile) {
 std::vector<TileState> Session::State::tile_states() const {
     std::vector<TileState> states;
     states.reserve(tiles.size());
-    for (const Tile& tile : tiles) states.push_back({tile.stage, tile.shown_stage(), tile.bytes(), tile.going_on});
+    const int last = static_cast<int>(stages.size()) - 1;
+    for (const Tile& tile : tiles) {
+        TileState& state = states.emplace_back(TileState{tile.stage, tile.shown_stage(), tile.bytes(), tile.going_on});
+        if (tile.revision != edits) state.stage = std::min(state.stage, last), state.shown_stage = std::clamp(state.shown_stage, 0, last);  // never done
+    }
     return states;
 }
 
@@ -201,8 +234,9 @@ Progress Session::advance(const Deadline& deadline) {
     const bool keep = s.world->scene.settings.keep;
     const Plan plan{stages, s.world->scene.settings.order != scene::Order::tiles, ceiling ? 4 * static_cast<std::size_t>(s.pool.threads()) : 0,
                     static_cast<std::size_t>(s.pool.threads())};
+    const bool known = s.catch_up(deadline);
     std::vector<TileState> states = s.tile_states();
-    while (true) {
+    while (known) {
         const std::vector<Work> work = next_work(states, plan);
         if (work.empty()) break;
         const auto round = Clock::now();
@@ -254,10 +288,11 @@ Progress Session::advance(const Deadline& deadline) {
 Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::string& file) {
     State& s = *state_;
     const auto start = Clock::now();
-    std::vector<scene::ShapeId> reshaped;
+    std::vector<scene::ShapeId> reshaped;  // what trees know of the old form would not fit the new one
     for (const scene::Edit& edit : edits) {
         if (const auto* shape = std::get_if<scene::SetShape>(&edit)) reshaped.push_back(shape->shape);
     }
+    if (!reshaped.empty()) s.catch_up(Deadline::never());
     const scene::Settings settings = s.world->scene.settings;
     auto undo = scene::apply(std::move(edits), s.world->scene, file);
     if (!undo) return tl::unexpected(undo.error());
@@ -265,33 +300,33 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     EditReport report{std::move(*undo)};
     World& before = *s.world;
     auto now = world_without_accelerator(std::move(before.scene));
-    const Change change = change_between(before, settings, *now, reshaped);
+    Change change = change_between(before, settings, *now, reshaped);
     const accel::Accelerator* accelerator = before.accelerator.get();
     if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings)); !given) {
         before.scene = std::move(now->scene);
         (void)scene::apply(std::move(report.undo), before.scene);
         return tl::unexpected(given.error());
     }
-    const std::unique_ptr<World> old = std::exchange(s.world, std::move(now));
+    std::unique_ptr<World> old = std::exchange(s.world, std::move(now));
     report.accelerator_kept = s.world->accelerator.get() == accelerator;
     if (settings.threads != s.world->scene.settings.threads) s.pool = parallel::Pool(s.world->scene.settings.threads);
     if (change.stages) s.plan_stages();
     report.began_anew = change.anew;
     if (settings.width != s.width() || settings.height != s.height() || settings.tile != s.tile_size()) {
+        s.steps.clear();
         s.cut_tiles();
-        report.tiles = s.tiles.size();
-    } else {
-        std::atomic<std::size_t> tiles = 0;
-        const int repeated = s.every_corner();
-        s.pool.for_each(s.tiles.size(), [&](std::size_t i) { tiles += revise(s.tiles[i], *old, *s.world, change, repeated); });
-        report.tiles = tiles;
+    } else if (change.touches_trees()) {
+        ++s.edits;
+        old->accelerator.reset();
+        s.steps.push_back({std::move(old), std::move(change)});
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return report;
 }
 
 scene::Image Session::picture(bool all_layers) const {
-    const State& s = *state_;
+    State& s = *state_;
+    if (all_layers) s.catch_up(Deadline::never());  // layers speak of the scene as it is
     scene::Image image = blank_image(s.width(), s.height(), all_layers);
     s.pool.for_each(s.tiles.size(), [&](std::size_t i) {
         const Tile& tile = s.tiles[i];
@@ -328,13 +363,15 @@ Stats Session::stats() const {
     stats.render_seconds = s.render_seconds;
     stats.build_seconds = s.build_seconds;
     stats.threads = s.pool.threads();
+    stats.revised_tiles = s.revised;
     return stats;
 }
 
 const scene::Scene& Session::scene() const { return state_->world->scene; }
 
 std::string Session::describe(int x, int y) {
-    const State& s = *state_;
+    State& s = *state_;
+    s.catch_up(Deadline::never());
     if (x < 0 || y < 0 || x >= s.width() || y >= s.height()) return {};
     const Tile& tile = s.tiles[static_cast<std::size_t>(y / s.tile_size()) * s.tiles_across() + x / s.tile_size()];
     if (tile.shows_pixels()) return describe_pixel(s.regrown(tile), *s.world, x - tile.x0, y - tile.y0);

@@ -33,6 +33,7 @@ struct Stats {
     double render_seconds = 0;         // inside advance()
     double build_seconds = 0;          // acceleration structure
     int threads = 0;
+    std::uint64_t revised_tiles = 0;   // times that an edit touched the trees of a tile
 };
 
 struct Progress {
@@ -45,7 +46,6 @@ struct Progress {
 // What an edit did to the trees, before any work is done anew.
 struct EditReport {
     std::vector<scene::Edit> undo;   // edits that bring the scene back
-    std::size_t tiles = 0;           // whose picture may change
     bool began_anew = false;         // no tree was kept
     bool accelerator_kept = true;
     double seconds = 0;

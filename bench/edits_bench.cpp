@@ -1,0 +1,154 @@
+// What edits cost beside a fresh render: 1920 x 1080, two threads, to the last level. Each edit is made on a converged session, and undone again outside
+// of the time that counts.
+//
+// Counters: `edit` is what Session::edit takes, `first` from the edit to a whole picture after one quantum of work, both ms; `rays` those traced after the edit.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "render/session.h"
+#include "scenes.h"
+
+namespace crescente::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using scene::Edit;
+using scene::Scene;
+
+double milliseconds_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double rays_of(const render::Session& session) {
+    const render::RayCounts rays = session.stats().rays;
+    return static_cast<double>(rays.camera + rays.reflected + rays.refracted + rays.shadow);
+}
+
+// Which index in the layer covers the share of the picture that comes next to the one wanted.
+std::uint32_t covering(const render::Session& session, const std::string& layer, double share, const std::function<bool(std::uint32_t)>& serves) {
+    const scene::Image image = session.picture(true);
+    std::map<std::uint32_t, double> shares;
+    for (const scene::Layer& l : image.layers) {
+        if (l.name != layer) continue;
+        for (const float id : l.values) {
+            if (id >= 0 && serves(static_cast<std::uint32_t>(id))) shares[static_cast<std::uint32_t>(id)] += 1.0 / (double(image.width) * image.height);
+        }
+    }
+    std::uint32_t best = 0;
+    double nearest = 2;
+    for (const auto& [id, covers] : shares) {
+        if (std::abs(covers - share) < nearest) nearest = std::abs(covers - share), best = id;
+    }
+    return best;
+}
+
+std::vector<Edit> recolor(const render::Session& session) {
+    const Scene& s = session.scene();
+    const std::uint32_t id = covering(session, "material", 0.3, [&](std::uint32_t i) { return i < s.materials.size(); });
+    scene::Material m = s.materials[id];
+    const auto tint = [](math::Rgb c) { return math::Rgb{0.9f * c.r, 0.8f * c.g, 0.95f * c.b}; };
+    if (auto* classic = std::get_if<scene::ClassicMaterial>(&m.model)) classic->diffuse = tint(classic->diffuse);
+    else std::get<scene::PhysicalMaterial>(m.model).base_color = tint(std::get<scene::PhysicalMaterial>(m.model).base_color);
+    return {scene::SetMaterial{{id}, m}};
+}
+std::vector<Edit> brighten(const render::Session& session) {
+    scene::Light light = session.scene().lights[0];
+    light.intensity *= 1.1;
+    return {scene::SetLight{0, light}};
+}
+std::vector<Edit> move_light(const render::Session& session) {
+    scene::Light light = session.scene().lights[0];
+    light.position = light.position * 1.05;
+    return {scene::SetLight{0, light}};
+}
+std::vector<Edit> move_object(const render::Session& session) {
+    const Scene& s = session.scene();
+    const std::uint32_t id = covering(session, "object", 0.02, [](std::uint32_t) { return true; });
+    scene::Node node = s.nodes[id];
+    const math::Bounds box = geometry::bounds(s.shapes[node.shape.value].shape);
+    node.transform = node.transform * math::Affine::translation(box.diagonal() * 0.2);
+    return {scene::SetNode{{id}, node}};
+}
+std::vector<Edit> finer(const render::Session& session) {
+    scene::Settings settings = session.scene().settings;
+    settings.threshold /= 2;
+    return {scene::SetSettings{settings}};
+}
+std::vector<Edit> move_camera(const render::Session& session) {
+    scene::Camera camera = *session.scene().camera;
+    camera.position = camera.position * 1.01;
+    return {scene::SetCamera{camera}};
+}
+
+void fresh(benchmark::State& state, const Scene& scene, bool keep) {
+    for (auto _ : state) {
+        Scene copy = scene;
+        copy.settings.keep = keep;
+        auto session = render::Session::open(std::move(copy)).value();
+        const auto start = Clock::now();
+        session.advance(render::Deadline::never());
+        state.SetIterationTime(milliseconds_since(start) / 1000);
+        state.counters["rays"] = rays_of(session);
+    }
+}
+
+void edited(benchmark::State& state, render::Session& session, std::vector<Edit> (*make)(const render::Session&)) {
+    session.advance(render::Deadline::never());
+    for (auto _ : state) {
+        std::vector<Edit> edits = make(session);
+        const double before = rays_of(session);
+        const auto start = Clock::now();
+        const std::uint64_t revised = session.stats().revised_tiles;
+        auto report = session.edit(std::move(edits)).value();
+        state.counters["edit"] = milliseconds_since(start);
+        session.advance(render::Deadline::in(std::chrono::milliseconds(2)));
+        const auto looking = Clock::now();
+        benchmark::DoNotOptimize(session.picture());
+        state.counters["picture"] = milliseconds_since(looking);
+        session.advance(render::Deadline::never());
+        state.SetIterationTime((milliseconds_since(start) - state.counters["picture"]) / 1000);
+        state.counters["rays"] = rays_of(session) - before;
+        state.counters["tiles"] = static_cast<double>(session.stats().revised_tiles - revised);
+        (void)session.edit(std::move(report.undo)).value();
+        session.advance(render::Deadline::never());
+    }
+}
+
+void add(const std::string& name, Scene scene) {
+    scene.settings.width = 1920, scene.settings.height = 1080;
+    scene.settings.threads = 2;
+    scene.settings.order = scene::Order::even;
+    const auto shared = std::make_shared<std::unique_ptr<render::Session>>();
+    const auto add_one = [&](const std::string& what, std::function<void(benchmark::State&)> run) {
+        benchmark::RegisterBenchmark((name + "/" + what).c_str(), std::move(run))->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+    };
+    add_one("fresh", [=](auto& state) { fresh(state, scene, true); });
+    add_one("fresh, trees not kept", [=](auto& state) { fresh(state, scene, false); });
+    const auto add_edit = [&](const std::string& what, std::vector<Edit> (*make)(const render::Session&)) {
+        add_one(what, [=](auto& state) {
+            if (!*shared) *shared = std::make_unique<render::Session>(render::Session::open(scene).value());
+            edited(state, **shared, make);
+        });
+    };
+    add_edit("color of a material", recolor);
+    add_edit("strength of a light", brighten);
+    add_edit("light moved", move_light);
+    add_edit("small object moved", move_object);
+    add_edit("finer threshold", finer);
+    add_edit("camera moved", move_camera);
+}
+
+}  // namespace
+}  // namespace crescente::bench
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+    using namespace crescente::bench;
+    add("balls4", load("balls4.nff"));
+    const std::string assembly = "../../shared/assets/cad/02_as1_pe_203.stp";
+    if (std::filesystem::exists(root() + "/scenes/" + assembly)) add("as1 (CAD)", load(assembly));
+    else add("2CylinderEngine", load("2CylinderEngine.glb"));
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}
