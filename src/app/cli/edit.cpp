@@ -73,11 +73,6 @@ std::optional<FreshRender> render_fresh(render::Session& session, const StopRequ
     return FreshRender{stats.rays, stats.build_seconds + stats.render_seconds};
 }
 
-std::size_t tiles_of(const scene::Settings& settings) {
-    const auto across = [&](int pixels) { return static_cast<std::size_t>((pixels + settings.tile - 1) / settings.tile); };
-    return across(settings.width) * across(settings.height);
-}
-
 ExitCode stopped() {
     note("stopped; the last picture and the report were not written");
     return exit_stopped;

@@ -35,6 +35,11 @@ std::string line_text(std::uint32_t number) { return "line " + std::to_string(nu
 
 }  // namespace
 
+std::size_t tiles_of(const scene::Settings& settings) {
+    const auto across = [&](int pixels) { return static_cast<std::size_t>((pixels + settings.tile - 1) / settings.tile); };
+    return across(settings.width) * across(settings.height);
+}
+
 EditPlayer::EditPlayer(render::Session& session, std::string script, const std::atomic<bool>& stop, std::function<Expected<void>(const std::string&)> save,
                        std::function<void(const PlayedEdit&)> finished)
     : session_(session), script_(std::move(script)), stop_(stop), save_(std::move(save)), finished_(std::move(finished)) {
@@ -73,7 +78,6 @@ Expected<void> EditPlayer::play_edit(const io::ScriptLine& line, const io::Json&
         return tl::unexpected(std::move(report.error()));
     }
     take(*report);
-    look_for_change();
     return {};
 }
 
@@ -91,14 +95,13 @@ Expected<void> EditPlayer::play_history(const io::ScriptLine& line, int times, b
         if (!report) return tl::unexpected(report.error());
         take(*report);
     }
-    look_for_change();
     return {};
 }
 
 void EditPlayer::begin(const io::ScriptLine& line) {
     end();
     before_ = session_.picture();
-    rays_before_ = session_.stats().rays;
+    stats_before_ = session_.stats();
     edit_ = PlayedEdit{};
     edit_->line = line.number;
     edit_->text = line.text;
@@ -107,7 +110,6 @@ void EditPlayer::begin(const io::ScriptLine& line) {
 }
 
 void EditPlayer::take(const render::EditReport& report) {
-    edit_->tiles = std::max(edit_->tiles, report.tiles);
     edit_->began_anew = edit_->began_anew || report.began_anew;
     edit_->accelerator_kept = edit_->accelerator_kept && report.accelerator_kept;
     edit_->edit_seconds += report.seconds;
@@ -117,7 +119,10 @@ void EditPlayer::take(const render::EditReport& report) {
 
 void EditPlayer::end() {
     if (!edit_) return;
-    edit_->rays = difference(session_.stats().rays, rays_before_);
+    const render::Stats stats = session_.stats();
+    edit_->rays = difference(stats.rays, stats_before_.rays);
+    const std::size_t all = tiles_of(session_.scene().settings);
+    edit_->tiles = edit_->began_anew ? all : std::min<std::size_t>(all, stats.revised_tiles - stats_before_.revised_tiles);
     if (progress_.done) edit_->converged = elapsed_;
     finished_(*edit_);
     edit_.reset();
@@ -136,7 +141,7 @@ void EditPlayer::grow(const io::Advance& until) {
     constexpr double quantum = 0.002, share = 1.0 / 8;
     double grown = 0;
     while (!enough(until, grown)) {
-        const bool looking = edit_ && !edit_->first && edit_->tiles > 0;
+        const bool looking = edit_ && !edit_->first;
         // Pictures are compared every few milliseconds at first, then at every eighth of the time more.
         double step = looking ? std::max(quantum, elapsed_ * share) : until.level ? quantum : 1e6;
         if (until.seconds) step = std::min(step, *until.seconds - grown);
@@ -150,7 +155,7 @@ void EditPlayer::grow(const io::Advance& until) {
 
 // A view from elsewhere is new once it is whole; in the others what an edit does not touch stays as it was.
 void EditPlayer::look_for_change() {
-    if (edit_->first || edit_->tiles == 0 || (edit_->began_anew && !progress_.first_picture)) return;
+    if (edit_->first || (edit_->began_anew && !progress_.first_picture)) return;
     const auto start = Clock::now();
     const scene::Image now = session_.picture();
     const double seconds = seconds_since(start);

@@ -15,11 +15,11 @@ namespace crescente::app {
 struct PlayedEdit {
     std::uint32_t line = 0;
     std::string text;                 // of the line
-    std::size_t tiles = 0;            // whose picture it may change
+    std::size_t tiles = 0;            // whose trees it touched
     bool began_anew = false;          // no tree was kept
     bool accelerator_kept = true;
     render::RayCounts rays;           // traced since
-    double edit_seconds = 0;          // until trees and scene were changed, with nothing traced yet
+    double edit_seconds = 0;          // in which the scene was changed, before any tree is
     std::optional<double> first;      // seconds to the first picture that differs from the one before; nothing: none does
     std::optional<double> converged;  // seconds to the finished picture, without those in which pictures were compared; nothing: it was not let grow to the end
 };
@@ -57,10 +57,13 @@ private:
     std::optional<PlayedEdit> edit_;  // that is being measured
     bool advanced_ = false;           // the script lets it grow itself
     double elapsed_ = 0;              // seconds since the edit
-    render::RayCounts rays_before_;
+    render::Stats stats_before_;
     scene::Image before_;
     render::Progress progress_;
 };
+
+// Tiles of the whole picture.
+std::size_t tiles_of(const scene::Settings& settings);
 
 // How many pixels differ, in any layer and to the bit; all if the pictures have other sizes or layers.
 std::size_t different_pixels(const scene::Image& a, const scene::Image& b);
