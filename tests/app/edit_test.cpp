@@ -124,7 +124,7 @@ TEST_F(EditCommand, ABadEditStopsTheScriptWithItsLine) {
                            {"-o", path("a.png")});
     EXPECT_EQ(outcome.code, 3);
     EXPECT_TRUE(contains(outcome.err, "script.jsonl: line 2, /batch/0/hide: there is no object 'grond' (did you mean 'ground'?)"));
-    EXPECT_TRUE(contains(outcome.err, "script.jsonl: line 2, /batch/1/set/light.key.intensity: is -1, must be at least 0"));
+    EXPECT_TRUE(contains(outcome.err, "script.jsonl: line 2, /batch/1/set/light.key.intensity: is -1 cd|lx, must be at least 0"));
     EXPECT_EQ(files(), (std::vector<std::string>{"scene.json", "script.jsonl"}));
 
     outcome = play(model, "\n{\"move\": {\"object\": \"ground\", \"transform\": {\"scale\": 0}}}\n");  // only the scene shows it
