@@ -101,6 +101,7 @@ struct Tile {
     std::uint64_t revision = 0;  // edits of the session that the trees know
     bool unsettled = false;      // an edit touched the trees, and what is missing in them has not been looked for
     bool untried = false;        // with that: ways of lights to nodes are not known any more
+    bool split_anew = false;     // with that: splits of pixels are not known any more, or asked for otherwise
 
     RayCounts rays;
     TestCounts tests;

@@ -65,20 +65,6 @@ std::array<LatticePoint, 5> split_points(LatticePoint at, std::uint32_t size) {
     return {{{at.x + half, at.y}, {at.x, at.y + half}, {at.x + half, at.y + half}, {at.x + size, at.y + half}, {at.x + half, at.y + size}}};
 }
 
-bool splits_hold(const std::vector<Quad>& quads, const Quad& quad, const std::vector<Rgb>& radiance, int depth, const scene::Settings& settings) {
-    std::array<Rgb, 4> corners;
-    for (int k = 0; k < 4; ++k) {
-        if (quad.corners[k] == no_node) return false;
-        corners[k] = perceived(radiance[quad.corners[k]]);
-    }
-    if (depth == settings.supersampling) return quad.parts == no_node;
-    if (differ(corners, static_cast<float>(settings.contrast)) != (quad.parts != no_node)) return false;
-    for (std::uint32_t k = 0; k < 4 && quad.parts != no_node; ++k) {
-        if (!splits_hold(quads, quads[quad.parts + k], radiance, depth + 1, settings)) return false;
-    }
-    return true;
-}
-
 void keep_roots_of_parts(const std::vector<Quad>& quads, const Quad& quad, LatticePoint at, std::uint32_t size, Tile& tile) {
     if (quad.parts == no_node) return;
     const std::uint32_t half = size / 2;
@@ -91,24 +77,16 @@ void keep_roots_of_parts(const std::vector<Quad>& quads, const Quad& quad, Latti
     for (std::uint32_t k = 0; k < 4; ++k) keep_roots_of_parts(quads, quads[quad.parts + k], {at.x + (k & 1 ? half : 0), at.y + (k & 2 ? half : 0)}, half, tile);
 }
 
-}  // namespace
-
-bool splits_hold(const Tile& tile, const scene::Settings& settings) {
-    if (tile.quads.empty()) return settings.supersampling == 0 || settings.level < scene::Level::edges;
-    const std::vector<Rgb> radiance = radiances(tile);
-    const std::size_t pixels = static_cast<std::size_t>(tile.width) * tile.height;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        if (!splits_hold(tile.quads, tile.quads[i], radiance, 0, settings)) return false;
-    }
-    return true;
+void keep_roots(const std::vector<Quad>& quads, Tile& tile) {
+    if (quads.empty()) return;
+    for (const Place& place : quads_at_depth(tile, 0)) keep_roots_of_parts(quads, quads[place.quad], place.at, 1u << subpixel_bits, tile);
 }
+
+}  // namespace
 
 void unsplit(Tile& tile, const scene::Settings& settings) {
     const bool splits = settings.supersampling > 0 && settings.level == scene::Level::edges;
-    for (const std::vector<Quad>* quads : {&tile.quads, &tile.quads_before}) {
-        if (quads->empty() || !splits) continue;
-        for (const Place& place : quads_at_depth(tile, 0)) keep_roots_of_parts(*quads, (*quads)[place.quad], place.at, 1u << subpixel_bits, tile);
-    }
+    if (splits) keep_roots(tile.quads, tile), keep_roots(tile.quads_before, tile);
     if (!tile.quads.empty()) tile.quads_before = std::move(tile.quads);
     tile.quads = {};
     if (!splits) tile.quads_before = {}, tile.subpixel_roots = {};
@@ -131,10 +109,15 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         const std::vector<Rgb> radiance = radiances(tile);
         tile.todo.clear();
         for (std::uint32_t i = 0; i < places.size(); ++i) {
+            Quad& quad = tile.quads[places[i].quad];
             std::array<Rgb, 4> corners;
-            for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[tile.quads[places[i].quad].corners[k]]);
-            if (differ(corners, static_cast<float>(growth.settings().contrast))) tile.todo.push_back(i);
+            for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[quad.corners[k]]);
+            const bool split = differ(corners, static_cast<float>(growth.settings().contrast));
+            if (!split) quad.parts = no_node;  // of before an edit
+            else if (quad.parts == no_node) tile.todo.push_back(i);
         }
+        // Corners that are there already are found by their place.
+        if (!tile.todo.empty() && tile.subpixel_roots.empty()) keep_roots(tile.quads, tile);
         tile.cursor = 1;
     }
 

@@ -9,9 +9,6 @@ namespace crescente::render {
 std::vector<Stage> edges_stages(const scene::Settings& settings);
 bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline);
 
-// Whether the pixels of a tile are split as its trees now ask for, to the last depth.
-bool splits_hold(const Tile& tile, const scene::Settings& settings);
-
 // Takes back all splits, so that they can be decided anew. The roots inside pixels are kept by their place, and the splits for the picture until then.
 void unsplit(Tile& tile, const scene::Settings& settings);
 

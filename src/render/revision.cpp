@@ -64,6 +64,7 @@ public:
         }
         if (lost_any_ || spawns_again_) respawn();
         update_shares();
+        tile_.split_anew = tile_.split_anew || lost_roots_ || change_.splitting || change_.stages;
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
         if (lost_any_) compact();
@@ -372,9 +373,9 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     if (std::any_of(tile.pending.begin(), tile.pending.end(), shows)) stage = std::min(stage, reflections);
     tile.todo.clear();
     tile.cursor = 0;
-    const int complete = static_cast<int>(level_of_stage.size());
-    if (tile.stage == complete && stage == complete && splits_hold(tile, settings)) return;
-    unsplit(tile, settings);
+    // Stopped amid splitting, or with some roots lost, splits cannot be looked through one by one.
+    const bool complete = tile.stage == static_cast<int>(level_of_stage.size()) && tile.quads_before.empty();
+    if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
     tile.stage = std::min({tile.stage, stage, edges});
 }
 

@@ -234,5 +234,177 @@ TEST(EditScripts, EndInThePictureOfAFreshSession) {
     }
 }
 
+// --- Law 3: what an edit costs
+
+struct Cost {
+    RayCounts rays;
+    std::uint64_t tiles;
+};
+
+// Makes the edits on a converged session, and looks that they end in the right picture.
+Cost cost_of(const Scene& scene, std::vector<Edit> edits) {
+    Session session = finished(scene);
+    const Stats before = session.stats();
+    const auto done = session.edit(std::move(edits));
+    EXPECT_TRUE(done) << (done ? "" : done.error().text());
+    converge(session);
+    EXPECT_TRUE(same_picture(finished(session.scene()).picture(true), session.picture(true)));
+    const Stats after = session.stats();
+    return {{after.rays.camera - before.rays.camera, after.rays.reflected - before.rays.reflected, after.rays.refracted - before.rays.refracted,
+             after.rays.shadow - before.rays.shadow}, after.revised_tiles - before.revised_tiles};
+}
+
+Scene without_splits() {
+    Scene scene = still_life();
+    scene.settings.supersampling = 0;
+    for (scene::Material& m : scene.materials) {
+        if (auto* classic = std::get_if<ClassicMaterial>(&m.model)) classic->attenuation = {};
+    }
+    return scene;
+}
+
+TEST(EditCost, ColorsTraceNothing) {
+    const Scene scene = without_splits();
+    scene::Material floor = scene.materials[0];
+    std::get<ClassicMaterial>(floor.model).diffuse = {0.1f, 0.9f, 0.2f};
+    const Cost cost = cost_of(scene, {scene::SetMaterial{{0}, floor}});
+    EXPECT_EQ(all_rays(cost.rays), 0u);
+    EXPECT_GT(cost.tiles, 0u);
+}
+
+// Weaker mirrors send no new rays, stronger ones only those that were below the threshold.
+TEST(EditCost, WeightsTraceOnlyWhatTheyBringAboveTheThreshold) {
+    const Scene scene = without_splits();
+    scene::Material floor = scene.materials[0];
+    std::get<ClassicMaterial>(floor.model).reflection = {0.12f, 0.12f, 0.15f};
+    EXPECT_EQ(all_rays(cost_of(scene, {scene::SetMaterial{{0}, floor}}).rays), 0u);
+    std::get<ClassicMaterial>(floor.model).reflection = {0.3f, 0.3f, 0.3f};
+    const Cost stronger = cost_of(scene, {scene::SetMaterial{{0}, floor}});
+    EXPECT_EQ(stronger.rays.camera, 0u);
+    EXPECT_GT(stronger.rays.reflected, 0u);
+    EXPECT_LT(stronger.rays.reflected, finished(scene).stats().rays.reflected / 2);
+}
+
+TEST(EditCost, LightsTraceTheirOwnRays) {
+    const Scene scene = without_splits();
+    scene::Light light = scene.lights[1];
+    light.color = {0.2f, 0.9f, 0.1f};
+    EXPECT_EQ(all_rays(cost_of(scene, {scene::SetLight{1, light}}).rays), 0u);
+
+    // Moved: no more than the shadow rays of a picture with this light alone.
+    light = scene.lights[1];
+    light.position = light.position + Vec3{0.3, 0.2, -0.4};
+    const Cost moved = cost_of(scene, {scene::SetLight{1, light}});
+    EXPECT_EQ(all_rays(moved.rays), moved.rays.shadow);
+    Scene alone = scene;
+    alone.lights = {light};
+    EXPECT_LE(moved.rays.shadow, finished(alone).stats().rays.shadow);
+    EXPECT_GT(moved.rays.shadow, 0u);
+
+    // A wider cone: rays only to what it newly reaches.
+    scene::Light spot = scene.lights[0];
+    spot.outer_angle += 0.1;
+    const Cost wider = cost_of(scene, {scene::SetLight{0, spot}});
+    EXPECT_EQ(all_rays(wider.rays), wider.rays.shadow);
+    alone.lights = {scene.lights[0]};
+    EXPECT_LT(wider.rays.shadow, finished(alone).stats().rays.shadow / 2);
+    EXPECT_GT(wider.rays.shadow, 0u);
+
+    // Taken away: nothing.
+    EXPECT_EQ(all_rays(cost_of(scene, {scene::RemoveLight{1}}).rays), 0u);
+}
+
+TEST(EditCost, AMovedObjectTracesWhatMeetsIt) {
+    Build s(96, 72);
+    s.settings().tile = 16, s.settings().depth = 3;
+    s.camera().position = {0, 1, 8};
+    const MaterialId grey = s.material(matte({0.6f, 0.6f, 0.6f}));
+    for (int i = 0; i < 9; ++i) s.place(sphere(0.4), grey, at({-4.0 + i, 0, 0}));
+    s.steady_light({3, 6, 5});
+    scene::Node node = s.scene.nodes[4];
+    node.transform = at({0, 1.1, 0});
+    const Cost cost = cost_of(s.scene, {scene::SetNode{{4}, node}});
+    const RayCounts fresh = finished(s.scene).stats().rays;
+    EXPECT_GT(cost.rays.camera, 0u);
+    EXPECT_LT(cost.rays.camera, fresh.camera / 10);
+    EXPECT_LT(all_rays(cost.rays), all_rays(fresh) / 8);
+}
+
+TEST(EditCost, FinerSettingsGrowOnlyTheFrontier) {
+    Scene scene = without_splits();
+    scene.settings.threshold = 0.05;
+    scene::Settings finer = scene.settings;
+    finer.threshold = 0.004;
+    Scene fine = scene;
+    fine.settings = finer;
+    const RayCounts before = finished(scene).stats().rays, whole = finished(fine).stats().rays;
+    const Cost cost = cost_of(scene, {scene::SetSettings{finer}});
+    EXPECT_EQ(all_rays(cost.rays), all_rays(whole) - all_rays(before));
+    // And back: hidden, nothing traced; and forth again: shown again, nothing traced.
+    Session session = finished(fine);
+    for (const scene::Settings& settings : {scene.settings, finer}) {
+        ASSERT_TRUE(session.edit({scene::SetSettings{settings}}));
+        converge(session);
+        EXPECT_TRUE(same_picture(finished(session.scene()).picture(true), session.picture(true)));
+        EXPECT_EQ(all_rays(session.stats().rays), all_rays(whole));
+    }
+}
+
+TEST(EditCost, WhatIsOutOfSightCostsNothing) {
+    Scene scene = without_splits();
+    scene.materials.push_back({"unused", matte({1, 1, 1})});
+    const Cost cost = cost_of(scene, {scene::SetMaterial{{static_cast<std::uint32_t>(scene.materials.size() - 1)}, {"unused", matte({0, 0, 0})}}});
+    EXPECT_EQ(all_rays(cost.rays), 0u);
+    EXPECT_EQ(cost.tiles, 0u);
+}
+
+// --- Undo, and edits that are refused
+
+TEST(Edits, UndoBringsBackThePicture) {
+    const Scene scene = still_life();
+    const scene::Image picture = finished(scene).picture(true);
+    Session session = finished(scene);
+    scene::SetNode hide{{2}, scene.nodes[2]};
+    hide.value.visible = false;
+    scene::SetRoots fewer{scene.roots};
+    fewer.roots.pop_back();
+    auto first = session.edit({hide, fewer, scene::InsertLight{1, scene.lights[0]}, scene::AddMaterial{scene.materials[0]}});
+    ASSERT_TRUE(first);
+    converge(session);
+    EXPECT_FALSE(same_picture(picture, session.picture(true)));
+    auto redo = session.edit(std::move(first->undo));
+    ASSERT_TRUE(redo);
+    converge(session);
+    EXPECT_TRUE(same_picture(picture, session.picture(true)));
+    const scene::Image changed = finished([&] { Scene s = scene; s.nodes[2].visible = false, s.roots.pop_back(), s.lights.insert(s.lights.begin() + 1, scene.lights[0]); return s; }()).picture();
+    ASSERT_TRUE(session.edit(std::move(redo->undo)));
+    converge(session);
+    EXPECT_TRUE(same_picture(changed, session.picture()));
+}
+
+TEST(Edits, AnEditThatBreaksTheSceneIsRefusedWhole) {
+    const Scene scene = still_life();
+    const scene::Image picture = finished(scene).picture(true);
+    Session session = finished(scene);
+    scene::Material floor = scene.materials[0];
+    std::get<ClassicMaterial>(floor.model).diffuse = {5, 0, 0};
+    scene::SetNode circle{{0}, scene.nodes[0]};
+    circle.value.children = {{0}};
+    scene::Camera blind = *scene.camera;
+    blind.target = blind.position;
+    scene::Material fine = scene.materials[1];
+    std::get<ClassicMaterial>(fine.model).diffuse = {0.5f, 0, 0};
+    const auto refused = session.edit({scene::SetMaterial{{1}, fine}, scene::SetMaterial{{0}, floor}, scene::SetLight{99, {}}, circle, scene::SetCamera{blind},
+                                       scene::AddShape{{"ball", sphere(0)}}, scene::SetCamera{}, scene::SetMaterial{{77}, fine}}, "script");
+    ASSERT_FALSE(refused);
+    const std::string text = refused.error().text();
+    for (const char* said : {"diffuse", "no light 99", "circle", "looks nowhere", "radius", "cannot be taken away", "no material 77", "script"}) {
+        EXPECT_NE(text.find(said), std::string::npos) << said << " is not told in\n" << text;
+    }
+    EXPECT_EQ(session.scene().shapes.size(), scene.shapes.size());
+    EXPECT_TRUE(converge(session).stats().revised_tiles == 0);
+    EXPECT_TRUE(same_picture(picture, session.picture(true)));
+}
+
 }  // namespace
 }  // namespace crescente::render::testing
