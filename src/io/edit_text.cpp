@@ -190,13 +190,14 @@ private:
 
     void remove(const Json& json, const Place& place) {
         const auto take_out = [](std::vector<NodeId>& list, NodeId node) { std::erase(list, node); };
-        for (const auto& [node, parent] : find_all(json, place)) {
-            if (parent.valid()) {
-                take_out(draft_.nodes.change(parent.value).children, node);
+        for (const ObjectPlace& at : find_all(json, place)) {
+            const auto from = [&](std::uint32_t parent) { take_out(draft_.nodes.change(parent).children, at.node); };
+            if (at.parent.valid()) {
+                from(at.parent.value);
                 continue;
             }
-            take_out(draft_.roots, node);
-            for_each_parent(node, [&](std::uint32_t p) { take_out(draft_.nodes.change(p).children, node); });
+            take_out(draft_.roots, at.node);
+            for_each_parent(at.node, from);
         }
         names_.reset();
     }
