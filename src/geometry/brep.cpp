@@ -78,9 +78,9 @@ Expected<void> Brep::add_analytic(const Face& face) {
     Bounds box = surface->kind() == AnalyticSurface::Kind::plane ? plane_bounds(*surface, *trimming) : surface->bounds(trimming->box());
     if (!box.bounded() || box.largest_coordinate() > 1e30) return failure(ErrorKind::input, {"", "", "a face without bounds", ""});
     surface->set_center(box.center());
-    box = grown(box, 2 * trimming->widest_band() + 4 * surface->error(box));
+    box = grown(box, grazing_reach * trimming->widest_band() + 4 * surface->error(box));
     const auto index = static_cast<std::uint32_t>(faces_.size());
-    faces_.push_back({std::move(*surface), none, face.reversed, face.slot, std::move(*trimming)});
+    faces_.push_back({std::move(*surface), none, face.reversed, face.slot, face.shell, std::move(*trimming)});
     leaves_.push_back({box, index, 0});
     return {};
 }
@@ -96,14 +96,14 @@ Face Brep::face(std::uint32_t index) const {
     }
     face.u0 = box.u0, face.u1 = box.u1, face.v0 = box.v0, face.v1 = box.v1;
     face.loops = from.trimming.loops();
-    face.reversed = from.reversed, face.slot = from.slot;
+    face.reversed = from.reversed, face.slot = from.slot, face.shell = from.shell;
     return face;
 }
 
 // Whether a point of an analytic face's surface is a hit of the face.
 bool Brep::belongs(std::uint32_t part, const TrimmedFace& face, const Ray& ray, const Meeting& meeting) const {
     const Point2 root = face.surface.parameters(meeting.local);
-    const auto located = face.trimming.locate(root, [&](Point2 p) { return face.surface.metric(p); });
+    const auto located = face.trimming.locate(root, [&](Point2 p) { return metric_seen_along(ray.direction, face.surface.along_u(p), face.surface.along_v(p)); });
     return located.place != Place::outside && (!located.near_edge || counts(part, ray, meeting.t, root, located));
 }
 
@@ -137,7 +137,7 @@ unsigned Brep::intersect(std::uint32_t part, const RayLanes& rays, unsigned acti
             const int lane = __builtin_ctz(rest);
             const PatchRoot root{roots.t[lane], roots.u[lane], roots.v[lane]};
             const Ray ray = ray_of(lane);
-            const auto located = locate_patch(leaf, face, root, ray.at(root.t));
+            const auto located = locate_patch(leaf, face, root, ray.at(root.t), ray.direction);
             if (located.place != Place::outside && (!located.near_edge || counts(part, ray, root.t, {root.u, root.v}, located))) {
                 t[lane] = root.t, found |= 1u << lane;
             } else {

@@ -51,6 +51,7 @@ private:
         std::uint32_t patches = none;   // index into patches_
         bool reversed = false;
         std::uint16_t slot = 0;
+        std::uint32_t shell = 0;
         Trimming trimming;
     };
     struct Patches {
@@ -67,7 +68,7 @@ private:
     Expected<void> add_analytic(const Face& face);
     Expected<void> add_patches(const Face& face, const PatchSurface& surface);
     std::optional<ShapeHit> meet_patch(std::uint32_t part, const TrimmedFace& face, const Ray& ray) const;
-    Trimming::Located locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position) const;
+    Trimming::Located locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position, Vec3 direction) const;
     SurfacePoint patch_surface(const Leaf& leaf, const TrimmedFace& face, Vec3 position) const;
 
     bool belongs(std::uint32_t part, const TrimmedFace& face, const Ray& ray, const Meeting& meeting) const;
@@ -76,19 +77,11 @@ private:
     struct Tangents {
         Vec3 along_u, along_v, normal;  // normal: of unit length, outward
     };
-    struct EdgeHit {  // a hit within the band of an edge, on either side of it
-        double t;
-        Vec3 position, normal;
-        Vec3 outward[Trimming::most_near_edges];  // along the face and across its edges, away from the face; unit length, or zero
-        int edges;
-        double band;
-        std::uint32_t face;
-        bool strict;  // on the face's side
-        bool leaves;  // the ray goes along with the normal
-    };
     Tangents tangents(const Leaf& leaf, const TrimmedFace& face, Point2 root, Vec3 position) const;
-    bool counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located, int depth = 0) const;
-    bool gives_way(const EdgeHit& hit, std::uint32_t other, const Ray& ray, int depth) const;
+    // Whether the crossing of the ray's line with the part near an edge is one of those that the solid has there. `root`: the parameters of the surface
+    // itself, of the patches where it is made of such.
+    bool counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located) const;
+    friend class EdgeJudge;
 
     static constexpr std::uint32_t clump_size = 16;
     std::vector<Bounds> clumps_;  // of so many leaves in a row

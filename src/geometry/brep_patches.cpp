@@ -83,29 +83,23 @@ Expected<void> Brep::add_patches(const Face& face, const PatchSurface& surface) 
         if (axis) range.u0 = trimming->reach().u0, range.u1 = trimming->reach().u1;
         return trimming->all_outside(range);
     };
-    Patches patches{surface, PatchLeaves(surface.patches, trimming->widest_band(), outside)};
+    Patches patches{surface, PatchLeaves(surface.patches, 0.5 * grazing_reach * trimming->widest_band(), outside)};
     const auto index = static_cast<std::uint32_t>(faces_.size()), set = static_cast<std::uint32_t>(patches_.size());
-    const double margin = 2 * trimming->widest_band();
     const std::size_t first = leaves_.size();
-    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) {
-        const Bounds box = patches.leaves.bounds(leaf);
-        const Vec3 grow = Vec3{1, 1, 1} * margin;
-        leaves_.push_back({{box.lower - grow, box.upper + grow}, index, leaf});
-    }
+    for (std::uint32_t leaf = 0; leaf < patches.leaves.count(); ++leaf) leaves_.push_back({patches.leaves.bounds(leaf), index, leaf});
     if (leaves_.size() == first) return failure(ErrorKind::input, {"", "", "loops that lie beside the surface", ""});
-    faces_.push_back({{}, set, face.reversed, face.slot, std::move(*trimming)});
+    faces_.push_back({{}, set, face.reversed, face.slot, face.shell, std::move(*trimming)});
     patches_.push_back(std::move(patches));
     return {};
 }
 
-Trimming::Located Brep::locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position) const {
+// direction: of the ray that is to find the edges' bands as wide as it sees them; zero: as wide as they are.
+Trimming::Located Brep::locate_patch(const Leaf& leaf, const TrimmedFace& face, const PatchRoot& root, Vec3 position, Vec3 direction) const {
     const Patches& patches = patches_[face.patches];
     const Frame* axis = patches.plain.revolved ? &*patches.plain.revolved : nullptr;
     const auto metric = [&](Point2) -> Metric {
-        const PatchPoint p = patches.leaves.at(leaf.patch_leaf, root.u, root.v);
-        if (!axis) return {dot(p.along_u, p.along_u), dot(p.along_u, p.along_v), dot(p.along_v, p.along_v)};
-        const Vec3 off = cross(p.position - axis->origin, axis->z);
-        return {dot(off, off), 0, dot(p.along_v, p.along_v)};
+        const Tangents t = tangents(leaf, face, {root.u, root.v}, position);
+        return direction == Vec3{} ? metric_of(t.along_u, t.along_v) : metric_seen_along(direction, t.along_u, t.along_v);
     };
     return face.trimming.locate({axis ? angle(*axis, position) : root.u, root.v}, metric);
 }
@@ -118,7 +112,7 @@ std::optional<ShapeHit> Brep::meet_patch(std::uint32_t part, const TrimmedFace& 
     while (true) {
         const int count = patches_[face.patches].leaves.roots(leaf.patch_leaf, rest, roots);
         for (int i = 0; i < count; ++i) {
-            const auto located = locate_patch(leaf, face, roots[i], ray.at(roots[i].t));
+            const auto located = locate_patch(leaf, face, roots[i], ray.at(roots[i].t), ray.direction);
             if (located.place == Place::outside || (located.near_edge && !counts(part, ray, roots[i].t, {roots[i].u, roots[i].v}, located))) continue;
             return ShapeHit{roots[i].t, part};
         }
@@ -131,7 +125,7 @@ SurfacePoint Brep::patch_surface(const Leaf& leaf, const TrimmedFace& face, Vec3
     const Patches& patches = patches_[face.patches];
     SurfacePoint point = patches.leaves.surface(leaf.patch_leaf, position);
     if (patches.plain.revolved) {
-        const Point2 at = locate_patch(leaf, face, {0, point.u, point.v}, point.position).at;
+        const Point2 at = locate_patch(leaf, face, {0, point.u, point.v}, point.position, {}).at;
         point.u = at.u, point.v = at.v;
     }
     return point;

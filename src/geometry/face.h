@@ -94,6 +94,7 @@ struct Face {
     std::vector<Loop> loops;    // none: the whole of [u0, u1] x [v0, v1]
     bool reversed = false;      // the outside is opposite to S_u x S_v
     std::uint16_t slot = 0;     // which of the node's materials
+    std::uint32_t shell = 0;    // faces bound each other along edges only within a shell; those of others may touch or overlap them
     bool operator==(const Face&) const = default;
 };
 

@@ -13,6 +13,17 @@ struct Metric {
     double uu = 1, uv = 0, vv = 1;
 };
 
+inline Metric metric_of(math::Vec3 along_u, math::Vec3 along_v) { return {dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)}; }
+
+// Lengths as they are seen along a direction (not zero), but no more than `grazing_reach` times shorter than they are. Where a ray grazes two faces that do not quite meet it
+// may pass between them far from where they end, but not farther, as it sees it, than the gap is wide.
+inline constexpr double grazing_reach = 4;
+inline Metric metric_seen_along(math::Vec3 direction, math::Vec3 along_u, math::Vec3 along_v) {
+    const double share = (1 - 1 / (grazing_reach * grazing_reach)) / dot(direction, direction), u = dot(along_u, direction), v = dot(along_v, direction);
+    const Metric plain = metric_of(along_u, along_v);
+    return {plain.uu - share * u * u, plain.uv - share * u * v, plain.vv - share * v * v};
+}
+
 // A curve and its first derivative at one parameter.
 struct CurvePoint {
     Point2 at, slope;

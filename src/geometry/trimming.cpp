@@ -34,7 +34,7 @@ std::string fault(const LoopEdge& edge) {
 }
 
 // Of a band in space, how far it reaches in one parameter.
-double margin(double band, double step) { return band == 0 ? 0 : band / step; }
+double margin(double band, double step) { return band == 0 ? 0 : grazing_reach * band / step; }
 
 double distance(Point2 a, Point2 b, Point2 steps) { return std::max(steps.u * std::abs(a.u - b.u), steps.v * std::abs(a.v - b.v)); }
 
@@ -275,10 +275,13 @@ bool Trimming::near_edge(Point2 p, const Metric& metric) const {
     return any_near(p, metric, [](const MonotonePiece&, const NearestPoint&) { return true; });
 }
 
-int Trimming::near_edges(Point2 p, const Metric& metric, NearEdge* edges) const {
+int Trimming::near_edges(Point2 p, const Metric& metric, const Metric& surface, NearEdge* edges) const {
     int count = 0;
     any_near(p, metric, [&](const MonotonePiece& piece, const NearestPoint& near) {
-        NearEdge edge{outward_of(piece, near.along, metric), std::sqrt(near.distance2), piece.band};
+        const Point2 middle = middle_of(piece, stretch_of(piece), curve_of(piece)).at;
+        const Point2 off{p.u - near.at.u, p.v - near.at.v};
+        const double distance = std::sqrt(surface.uu * off.u * off.u + 2 * surface.uv * off.u * off.v + surface.vv * off.v * off.v);
+        NearEdge edge{outward_of(piece, near.along, surface), {middle.u - near.at.u, middle.v - near.at.v}, distance, piece.band};
         for (int i = 0; i < count; ++i) {
             if (edge.distance < edges[i].distance) std::swap(edge, edges[i]);
         }

@@ -32,21 +32,23 @@ public:
         Point2 at;  // the point moved by periods to where it belongs to the face
         bool near_edge = false;  // it may lie within the band of an edge
     };
-    // metric(Point2) -> Metric there; asked for only near loops.
+    // metric(Point2) -> Metric there, at most `grazing_reach` times shorter than LeastSteps has it; asked for only near loops.
     template <class MetricAt>
     Located locate(Point2 p, const MetricAt& metric) const {
         if (period_.u == 0 && period_.v == 0) return place_of(p, metric);
         return locate_periodic(p, metric);
     }
 
-    // The edges within whose bands p lies, on either side, the nearest first. p as `Located` has it.
+    // The edges within whose bands p lies, on either side, the nearest first. p as `Located` has it. By `metric` they are near; directions and distances
+    // are those of `surface`.
     struct NearEdge {
-        Point2 outward;       // a direction in (u, v) orthogonal to the edge by the metric, away from the inside; zero if the loops do not tell
-        double distance = 0;  // in space
+        Point2 outward;       // a direction in (u, v) orthogonal to the edge, away from the inside; zero if the loops do not tell
+        Point2 body;          // from the edge's point next to p to its middle
+        double distance = 0;  // by `surface`
         double band = 0;
     };
     static constexpr int most_near_edges = 4;
-    int near_edges(Point2 p, const Metric& metric, NearEdge* edges) const;
+    int near_edges(Point2 p, const Metric& metric, const Metric& surface, NearEdge* edges) const;
     // Whether there is one.
     bool near_edge(Point2 p, const Metric& metric) const;
 

@@ -59,7 +59,7 @@ void face(Archive& a, Face& f) {
             value(a, edge.band);
         });
     });
-    value(a, f.reversed), value(a, f.slot);
+    value(a, f.reversed), value(a, f.slot), value(a, f.shell);
 }
 
 template <class Archive>

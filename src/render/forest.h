@@ -53,6 +53,8 @@ enum class Share : std::uint8_t {
     filtered,  // the RGB share is in Tile::filtered
 };
 
+constexpr bool may_arrive(Share share) { return share != Share::behind && share != Share::blocked; }
+
 // How a ray goes on from a surface.
 enum class Way : std::uint8_t {
     reflected,

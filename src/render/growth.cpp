@@ -157,9 +157,12 @@ void Growth::light_points(bool shadows, Coherence coherence) {
         const Light& light = world_.lights[l];
         if (is_black(light.color())) continue;
         for (PointLanes& p : points_) {
+            p.lit = 0;
+            for (int i = 0; i < p.count; ++i) p.lit |= may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + l]) ? 1u << i : 0u;
+            if (!p.lit) continue;
             p.reach = light.reach(p.position);
             p.cosine = dot(p.normal, p.reach.to_light);
-            p.lit = bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0)) & ((1u << p.count) - 1);
+            p.lit &= bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0));
         }
         if (shadows && light.casts_shadows()) trace_shadows(l, coherence);
         for (PointLanes& p : points_) {
@@ -167,7 +170,7 @@ void Growth::light_points(bool shadows, Coherence coherence) {
                 const int i = __builtin_ctz(rest);
                 const std::size_t key = std::size_t{p.node[i]} * lights + l;
                 const Share share = tile_.shares[key];
-                if (share == Share::blocked) continue;
+                if (!may_arrive(share)) continue;
                 Rgb strength = light.color() * static_cast<float>(p.reach.factor[i]);
                 if (share == Share::filtered) strength *= tile_.filtered.at(key);
                 p.sum[i] += strength * reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i],
@@ -202,7 +205,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         unsigned untried = 0;
         for (int i = 0; i < p.count; ++i) {
             Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
-            if (!(p.lit >> i & 1)) share = Share::behind;
+            if (!(p.lit >> i & 1) && may_arrive(share)) share = Share::behind;
             else if (share == Share::untried) untried |= 1u << i;
         }
         if (!untried) continue;

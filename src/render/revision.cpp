@@ -226,9 +226,8 @@ private:
                 const bool holds = holds_still(node, l, share);
                 if (holds) shares[i * now + l] = share;
                 // The strength of a light that does not arrive does not matter.
-                const bool arrives = share != Share::blocked && share != Share::behind;
                 tile_.untried = tile_.untried || !holds || (share == Share::untried && was == no_node);
-                if (!holds || (change_.lights[l] != LightChange::none && arrives)) relight(node);
+                if (!holds || (change_.lights[l] != LightChange::none && may_arrive(share))) relight(node);
             }
         }
         std::unordered_map<std::uint64_t, Rgb> filtered;

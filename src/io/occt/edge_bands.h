@@ -3,8 +3,10 @@
 
 #include <cstdint>
 
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_DataMapOfShapeReal.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
 namespace crescente::io::occt {
@@ -16,6 +18,7 @@ public:
     explicit EdgeBands(const TopoDS_Shape& part);
 
     double band(const TopoDS_Edge& edge) const;  // max(declared tolerance, measured gap) + 1e-6 of the part's diagonal; mm
+    std::uint32_t shell(const TopoDS_Face& face) const;  // the same number for faces that edges join, directly or by others
     double diagonal() const { return diagonal_; }
     double largest_tolerance() const { return largest_tolerance_; }
     double largest_gap() const { return largest_gap_; }
@@ -23,6 +26,7 @@ public:
 
 private:
     TopTools_DataMapOfShapeReal bands_;
+    TopTools_DataMapOfShapeInteger shells_;
     double diagonal_ = 0, largest_tolerance_ = 0, largest_gap_ = 0, floor_ = 0;
     std::uint64_t unmatched_ = 0;
 };

@@ -39,9 +39,10 @@ Cell cell_of(Vec3 p, double size) {
 
 }  // namespace
 
-double distance_between(const EdgePoints& a, const EdgePoints& b) {
+double distance_between(const EdgePoints& a, const EdgePoints& b, double enough) {
     double same_pace = 0, apart = 0;
     for (std::size_t i = 0; i < a.size(); ++i) same_pace = std::max(same_pace, length(a[i] - b[i]));
+    if (same_pace <= enough) return same_pace;
     for (const Vec3 p : a) apart = std::max(apart, polyline_distance(p, b) + sag(b));
     for (const Vec3 p : b) apart = std::max(apart, polyline_distance(p, a) + sag(a));
     return std::min(same_pace, apart);
@@ -71,7 +72,7 @@ std::vector<FreeEdgeGap> gaps_between(const std::vector<FreeEdge>& edges, double
     std::vector<FreeEdgeGap> gaps;
     for (std::size_t e = 0; e < edges.size(); ++e) {
         const FreeEdge& one = edges[e];
-        FreeEdgeGap result{e, false, 0};
+        FreeEdgeGap result{e, false, e, 0};
         double best = reach;
         around(one.points.front(), [&](std::size_t other) {
             if (other == e) return;
@@ -81,7 +82,7 @@ std::vector<FreeEdgeGap> gaps_between(const std::vector<FreeEdge>& edges, double
             if (length(points.front() - one.points.front()) > allowed || length(points.back() - one.points.back()) > allowed) return;
             const double gap = distance_between(one.points, points);
             if (gap > allowed || (result.matched && gap >= best)) return;
-            result.matched = true, best = gap;
+            result.matched = true, result.other = other, best = gap;
         });
         result.gap = result.matched ? best : 0;
         gaps.push_back(result);

@@ -37,7 +37,7 @@ public:
                 rest_.push_back({i, slot, kind ? kind->kind : kind.error().kind, "cannot be traced as it is"});
                 ++counts.faces[static_cast<std::size_t>(rest_.back().kind)];
             } else if (options_.deflection > 0) rest_.push_back({i, slot, CadSurface::other, {}});
-            else add(i, slot, convert_face(face, bands));
+            else add(i, slot, bands.shell(face), convert_face(face, bands));
         }
         if (!rest_.empty()) add_triangles(faces, (options_.deflection > 0 ? options_.deflection : fallback_deflection) * bands.diagonal());
         tell_rest();
@@ -52,7 +52,7 @@ private:
         std::string reason;
     };
 
-    void add(int number, std::uint16_t slot, tl::expected<ConvertedFace, UnconvertedFace> result) {
+    void add(int number, std::uint16_t slot, std::uint32_t shell, tl::expected<ConvertedFace, UnconvertedFace> result) {
         CadCounts& counts = model_.counts;
         ++counts.faces[static_cast<std::size_t>(result ? result->kind : result.error().kind)];
         if (!result && result.error().degenerate) {
@@ -70,7 +70,7 @@ private:
             tell(number, result->kind, "was mended by OpenCASCADE");
         }
         if (const auto* patches = std::get_if<geometry::PatchSurface>(&result->face.surface)) counts.patches += patches->patches.size();
-        result->face.slot = slot;
+        result->face.slot = slot, result->face.shell = shell;
         part_.faces.push_back(std::move(result->face));
         part_.numbers.push_back(static_cast<std::uint32_t>(number));
     }
