@@ -45,9 +45,9 @@ struct CountingIterator {
     bool operator==(const CountingIterator& other) const { return at == other.at; }
 };
 
-std::string line_and_column(std::string_view text, std::size_t byte) {
+std::string line_and_column(std::string_view text, std::size_t byte, std::uint32_t first_line) {
     const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const auto line = first_line + std::count(before.begin(), before.end(), '\n');
     const std::size_t start = before.rfind('\n');
     const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
     return "line " + std::to_string(line) + ", column " + std::to_string(column);
@@ -71,7 +71,8 @@ public:
     using string_t = nlohmann::json::string_t;
     using binary_t = nlohmann::json::binary_t;
 
-    Builder(std::string_view text, const Cursor& cursor, ProblemList& problems) : text_(text), cursor_(cursor), problems_(problems) {}
+    Builder(std::string_view text, const Cursor& cursor, ProblemList& problems)
+        : text_(text), cursor_(cursor), first_line_(cursor.line), problems_(problems) {}
 
     bool null() { return put(Json{}, cursor_.line); }
     bool boolean(bool v) { return put(Json{v}, cursor_.line); }
@@ -100,7 +101,7 @@ public:
         return true;
     }
     bool parse_error(std::size_t byte, const std::string&, const nlohmann::detail::exception& error) {
-        problems_.add(line_and_column(text_, byte), matter_of(error.what()));
+        problems_.add(line_and_column(text_, byte, first_line_), matter_of(error.what()));
         return false;
     }
 
@@ -144,6 +145,7 @@ private:
 
     std::string_view text_;
     const Cursor& cursor_;
+    std::uint32_t first_line_;
     ProblemList& problems_;
     std::vector<Json*> open_;  // the containers not yet closed, outermost first
 };
@@ -215,8 +217,8 @@ void unknown_member(const Json::Member& member, const Place& object, std::span<c
     problems.add(member.value, object / member.key, "'" + member.key.substr(0, 100) + "' is not known here", hint);
 }
 
-std::optional<Json> parse_json(std::string_view text, ProblemList& problems) {
-    Cursor cursor;
+std::optional<Json> parse_json(std::string_view text, ProblemList& problems, std::uint32_t first_line) {
+    Cursor cursor{first_line, first_line};
     Builder builder{text, cursor, problems};
     const CountingIterator first{text.data(), &cursor}, last{text.data() + text.size(), &cursor};
     constexpr bool strict = true, comments = true;

@@ -31,6 +31,7 @@ public:
     static Json make_object() { return Json{Value{std::make_unique<Object>()}}; }
 
     // Null where the value is of another kind. A number may be written with or without a fraction.
+    bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
     const bool* boolean() const { return std::get_if<bool>(&value_); }
     const std::int64_t* integer() const { return std::get_if<std::int64_t>(&value_); }
     std::optional<double> number() const;
@@ -98,7 +99,8 @@ private:
 // A problem for a member that is not among the known ones, with the nearest spelling.
 void unknown_member(const Json::Member& member, const Place& object, std::span<const std::string> known, ProblemList& problems);
 
-// Nothing if the text is not JSON; all that is wrong is told in `problems`. Nesting deeper than 512 is refused.
-std::optional<Json> parse_json(std::string_view text, ProblemList& problems);
+// Nothing if the text is not JSON; all that is wrong is told in `problems`. Nesting deeper than 512 is refused. `first_line`: that of the text in its
+// file.
+std::optional<Json> parse_json(std::string_view text, ProblemList& problems, std::uint32_t first_line = 1);
 
 }  // namespace crescente::io

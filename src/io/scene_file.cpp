@@ -6,6 +6,7 @@
 
 #include "base/spelling.h"
 #include "io/json_fields.h"
+#include "io/object_reader.h"
 #include "io/scene_parts.h"
 #include "io/scene_words.h"
 #include "io/text_file.h"
@@ -18,9 +19,6 @@ using math::Affine;
 using math::Vec3;
 using scene::NodeId;
 using scene::Scene;
-
-// Objects within objects, over all files: what the reader's recursion is allowed.
-constexpr int deepest_objects = 300;
 
 using Roots = std::vector<NodeId>;
 
@@ -87,7 +85,7 @@ private:
 };
 
 // Reads one file into the scene.
-class Document {
+class Document : ObjectHome {
 public:
     Document(Loading& loading, std::string name, fs::path folder) : loading_(loading), problems_(std::move(name)), folder_(std::move(folder)) {}
 
@@ -105,26 +103,6 @@ private:
         problems_.add(json, place, "is " + std::string(json.kind()) + ", must be " + wanted);
     }
 
-    // Calls visit(value, place, key) for each entry of an object by name or of a list; the key of a list's entry is empty.
-    template <class Visit>
-    void for_each_entry(const Json& json, const Place& place, Visit&& visit) {
-        if (json.object()) {
-            for (const auto& member : *json.object()) visit(member.value, place / member.key, member.key);
-        } else if (json.array()) {
-            std::size_t index = 0;
-            for (const Json& element : *json.array()) visit(element, place / index++, std::string{});
-        } else {
-            must_be(json, place, "an object by name, or a list");
-        }
-    }
-
-    std::string read_name(const Json& json, const Place& place, const std::string& key) {
-        const Json* name = json.find(name_word().name);
-        if (!name) return key;
-        if (name->text()) return *name->text();
-        must_be(*name, place / name_word().name, "a text");
-        return key;
-    }
     // References go by key; by name for the entries of a list.
     static const std::string& handle(const std::string& key, const std::string& name) { return key.empty() ? name : key; }
 
@@ -136,38 +114,38 @@ private:
             if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_member(member, top, known, problems_);
         }
         read_measure(json, top);
-        const std::string name = read_name(json, top, "");
+        const std::string name = read_name(json, top, "", problems_);
         if (outermost()) scene().name = name;
         read_surroundings(json, top);
         if (const Json* lights = json.find("lights")) read_lights(*lights, top / "lights");
         if (const Json* materials = json.find("materials")) {
-            for_each_entry(*materials, top / "materials", [&](const Json& value, const Place& place, const std::string& key) {
+            for_each_entry(*materials, top / "materials", problems_, [&](const Json& value, const Place& place, const std::string& key) {
                 scene().materials.push_back(read_material(value, measure_, place, problems_));
-                scene().materials.back().name = read_name(value, place, key);
+                scene().materials.back().name = read_name(value, place, key, problems_);
                 materials_.add(handle(key, scene().materials.back().name), std::uint32_t(scene().materials.size() - 1), value, place, problems_);
             });
         }
         if (const Json* shapes = json.find("shapes")) {
-            for_each_entry(*shapes, top / "shapes", [&](const Json& value, const Place& place, const std::string& key) {
-                const std::string shape_name = read_name(value, place, key);
+            for_each_entry(*shapes, top / "shapes", problems_, [&](const Json& value, const Place& place, const std::string& key) {
+                const std::string shape_name = read_name(value, place, key, problems_);
                 auto shape = read_shape(value, measure_, place, problems_);
                 scene().shapes.push_back({shape_name, shape ? std::move(*shape) : geometry::Shape{}});
                 shapes_.add(handle(key, shape_name), std::uint32_t(scene().shapes.size() - 1), value, place, problems_);
             });
         }
-        const Json* groups = json.find("groups");
-        if (groups) {
-            for_each_entry(*groups, top / "groups", [&](const Json& value, const Place& place, const std::string& key) {
-                groups_.add(handle(key, read_name(value, place, key)), loading_.new_node().value, value, place, problems_);
+        ObjectReader objects(*this, measure_, problems_, loading_.depth);
+        if (const Json* groups = json.find("groups")) {
+            for_each_entry(*groups, top / "groups", problems_, [&](const Json& value, const Place& place, const std::string& key) {
+                groups_.add(handle(key, read_name(value, place, key, problems_)), loading_.new_node().value, value, place, problems_);
                 group_nodes_.push_back(NodeId{std::uint32_t(scene().nodes.size() - 1)});
             });
             std::size_t index = 0;
-            for_each_entry(*groups, top / "groups", [&](const Json& value, const Place& place, const std::string& key) {
-                read_object_into(group_nodes_[index++], value, place, key);
+            for_each_entry(*groups, top / "groups", problems_, [&](const Json& value, const Place& place, const std::string& key) {
+                objects.read_into(group_nodes_[index++], value, place, key);
             });
         }
         Roots roots;
-        if (const Json* objects = json.find("objects")) roots = read_objects(*objects, top / "objects");
+        if (const Json* shown = json.find("objects")) roots = objects.read_all(*shown, top / "objects");
         if (!z_up_ || roots.empty()) return roots;
         const NodeId turned = loading_.new_node();
         scene().nodes[turned.value].name = "z up";
@@ -216,12 +194,12 @@ private:
     void read_lights(const Json& json, const Place& place) {
         const std::string own[] = {name_word().name};
         std::size_t count = 0;
-        for_each_entry(json, place, [&](const Json& value, const Place& here, const std::string& key) {
+        for_each_entry(json, place, problems_, [&](const Json& value, const Place& here, const std::string& key) {
             scene::Light light;
             if (z_up_) turn(light, lying);
             read_fields(value, light, scene::Light::fields(), measure_, here, problems_, own);
             if (z_up_) turn(light, upright);
-            light.name = read_name(value, here, key);
+            light.name = read_name(value, here, key, problems_);
             ++count;
             if (outermost()) scene().lights.push_back(std::move(light));
         });
@@ -230,89 +208,29 @@ private:
         }
     }
 
-    Roots read_objects(const Json& json, const Place& place) {
-        Roots nodes;
-        for_each_entry(json, place, [&](const Json& value, const Place& here, const std::string& key) {
-            if (const NodeId node = read_object(value, here, key); node.valid()) nodes.push_back(node);
-        });
-        return nodes;
+    std::optional<scene::ShapeId> shape(const Json& json, const Place& place, ProblemList& problems) override {
+        const auto found = shapes_.find(json, place, problems);
+        return found ? std::optional(scene::ShapeId{*found}) : std::nullopt;
     }
-
-    NodeId read_object(const Json& json, const Place& place, const std::string& key) {
-        // Nothing but a reference: the group itself, shared, not a new node around it.
-        const Json* instance = json.find("instance");
-        if (instance && json.object()->size() == 1 && key.empty()) {
-            const auto group = groups_.find(*instance, place / "instance", problems_);
-            return group ? NodeId{*group} : NodeId{};
-        }
-        const NodeId node = loading_.new_node();
-        read_object_into(node, json, place, key);
-        return node;
+    std::optional<scene::MaterialId> material(const Json& json, const Place& place, ProblemList& problems) override {
+        const auto found = materials_.find(json, place, problems);
+        return found ? std::optional(scene::MaterialId{*found}) : std::nullopt;
     }
-
-    void read_object_into(NodeId node, const Json& json, const Place& place, const std::string& key) {
-        if (!json.object()) return must_be(json, place, "an object");
-        if (loading_.depth >= deepest_objects) {
-            return problems_.add(json, Place{}, "objects are nested deeper than " + std::to_string(deepest_objects), "use groups and instances");
-        }
-        ++loading_.depth;
-        const auto known = names_of(object_words());
-        scene::Node read;
-        read.name = read_name(json, place, key);
-        bool from_file = false;
-        for (const auto& member : *json.object()) {
-            const Place here = place / member.key;
-            if (member.key == "transform") read.transform = read_transform(member.value, measure_, here, problems_);
-            else if (member.key == "shape") read.shape = read_object_shape(member.value, here, read.name);
-            else if (member.key == "material") read_materials(Json::Array{}, &member.value, here, read.materials);
-            else if (member.key == "materials") read_material_list(member.value, here, read.materials);
-            else if (member.key == "visible") {
-                if (member.value.boolean()) read.visible = *member.value.boolean();
-                else must_be(member.value, here, "true or false");
-            } else if (member.key == "file") from_file = true;
-            else if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_member(member, place, known, problems_);
-        }
-        if (json.find("material") && json.find("materials")) problems_.add(json, place, "has both material and materials");
-        if (const Json* instance = json.find("instance")) {
-            if (const auto group = groups_.find(*instance, place / "instance", problems_)) read.children.push_back(NodeId{*group});
-        }
-        if (from_file) {
-            for (const NodeId root : file_roots(*json.find("file"), place / "file")) {
-                read.children.push_back(read.materials.empty() ? root : stripped(root));
-            }
-        }
-        if (const Json* children = json.find("children")) {
-            for (const NodeId child : read_objects(*children, place / "children")) read.children.push_back(child);
-        }
-        scene().nodes[node.value] = std::move(read);
-        --loading_.depth;
+    std::optional<NodeId> instance(const Json& json, const Place& place, ProblemList& problems) override {
+        const auto found = groups_.find(json, place, problems);
+        return found ? std::optional(NodeId{*found}) : std::nullopt;
     }
-
-    scene::ShapeId read_object_shape(const Json& json, const Place& place, const std::string& name) {
-        if (!json.object()) {
-            const auto found = shapes_.find(json, place, problems_);
-            return found ? scene::ShapeId{*found} : scene::ShapeId{};
-        }
-        auto shape = read_shape(json, measure_, place, problems_);
-        if (!shape) return {};
-        scene().shapes.push_back({read_name(json, place, name), std::move(*shape)});
-        return scene::ShapeId{std::uint32_t(scene().shapes.size() - 1)};
+    std::vector<NodeId> file(const Json& json, bool bare, const Place& place, ProblemList&) override {
+        Roots roots = file_roots(json, place);
+        if (bare) std::transform(roots.begin(), roots.end(), roots.begin(), [this](NodeId root) { return stripped(root); });
+        return roots;
     }
-
-    void read_materials(const Json::Array& list, const Json* single, const Place& place, std::vector<scene::MaterialId>& materials) {
-        if (single) {
-            if (const auto found = materials_.find(*single, place, problems_)) materials.push_back({*found});
-            return;
-        }
-        std::size_t index = 0;
-        for (const Json& name : list) {
-            if (const auto found = materials_.find(name, place / index++, problems_)) materials.push_back({*found});
-        }
+    scene::ShapeId add(scene::NamedShape shape) override {
+        scene().shapes.push_back(std::move(shape));
+        return {static_cast<std::uint32_t>(scene().shapes.size() - 1)};
     }
-    void read_material_list(const Json& json, const Place& place, std::vector<scene::MaterialId>& materials) {
-        if (json.array()) read_materials(*json.array(), nullptr, place, materials);
-        else must_be(json, place, "a list of names of materials");
-    }
+    NodeId add_node() override { return loading_.new_node(); }
+    void set(NodeId node, scene::Node value) override { scene().nodes[node.value] = std::move(value); }
 
     // The top nodes of another file, read at its first mention.
     Roots file_roots(const Json& json, const Place& place) {

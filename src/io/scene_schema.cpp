@@ -132,11 +132,6 @@ ordered_json object_schema() {
 
 // --- the reference
 
-std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-    return text;
-}
-
 std::string type_text(const FieldInfo& info) {
     switch (info.type) {
     case FieldType::boolean: return "boolean";
@@ -178,14 +173,8 @@ std::string field_table(const FieldTable<Owner>& table) {
         std::string value;
         print_json(write_value(f.get(standard), f.info, {}), value);
         out += "| `" + f.info.name + "` | " + type_text(f.info) + " | " + unit_text(f.info) + " | " + range_text(f.info) + " | `" + value + "` | " +
-               cell(f.info.doc) + " |\n";
+               table_cell(f.info.doc) + " |\n";
     }
-    return out;
-}
-
-std::string word_table(std::span<const Word> words) {
-    std::string out = "| key | value | |\n|---|---|---|\n";
-    for (const Word& word : words) out += "| `" + word.name + "` | " + cell(word.form) + " | " + cell(word.doc) + " |\n";
     return out;
 }
 

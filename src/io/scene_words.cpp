@@ -86,6 +86,17 @@ std::vector<std::string> names_of(std::span<const Word> words) {
     return names;
 }
 
+std::string table_cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return text;
+}
+
+std::string word_table(std::span<const Word> words) {
+    std::string out = "| key | value | |\n|---|---|---|\n";
+    for (const Word& word : words) out += "| `" + word.name + "` | " + table_cell(word.form) + " | " + table_cell(word.doc) + " |\n";
+    return out;
+}
+
 std::span<const LengthUnit> length_units() {
     static const std::vector<LengthUnit> units{{"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}, {"um", 1e-6}, {"km", 1000}};
     return units;

@@ -25,6 +25,10 @@ const Word& model_word();  // of a material
 
 std::vector<std::string> names_of(std::span<const Word> words);
 
+// For the reference: a text in a cell of a Markdown table, and the words as such a table.
+std::string table_cell(std::string text);
+std::string word_table(std::span<const Word> words);
+
 // Units of length by name, in metres.
 struct LengthUnit {
     std::string name;

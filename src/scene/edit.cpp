@@ -111,4 +111,9 @@ Expected<std::vector<Edit>> apply(std::vector<Edit> edits, Scene& scene, const s
     return tl::unexpected(Error{ErrorKind::input, std::move(problems)});
 }
 
+void apply_unchecked(std::vector<Edit> edits, Scene& scene) {
+    Editor editor(scene);
+    for (Edit& edit : edits) editor.make(edit);
+}
+
 }  // namespace crescente::scene

@@ -64,4 +64,8 @@ using Edit = std::variant<SetMaterial, AddMaterial, SetLight, InsertLight, Remov
 // was but for what was added, to which nothing refers.
 Expected<std::vector<Edit>> apply(std::vector<Edit> edits, Scene& scene, const std::string& file = {});
 
+// The same for a scene that is still to be validated: only what the edits name must be there, and shapes are not prepared. An edit that names what is
+// not there does nothing.
+void apply_unchecked(std::vector<Edit> edits, Scene& scene);
+
 }  // namespace crescente::scene

@@ -19,9 +19,10 @@ constexpr const char* footer =
     "Examples:\n"
     "  crescente render model.glb -o picture.png     a bare model is framed and lit by a studio\n"
     "  crescente render scene.nff -o picture.png --size 1920x1080 --time 10s\n"
+    "  crescente edit model.glb script.jsonl         edits played on a scene, with what each costs\n"
     "  crescente info model.glb                      what is in the file, and what is wrong with it\n"
     "  crescente bench scene.nff                     accelerators and switches compared\n\n"
-    "Exit codes: 0 ok, 2 usage, 3 input, 4 output, 5 unsupported, 6 out of memory or disk, 70 defect, 130 stopped";
+    "Exit codes: 0 ok, 1 pictures differ, 2 usage, 3 input, 4 output, 5 unsupported, 6 out of memory or disk, 70 defect, 130 stopped";
 
 std::string quoted_command_line(int count, char** arguments) {
     std::string line = "crescente";
@@ -64,7 +65,7 @@ ExitCode run(int count, char** arguments) {
     CLI::App app("Crescente renders models by ray tracing with growing realism: a whole picture at once, better at every moment.", "crescente");
     app.set_version_flag("--version", std::string("crescente ") + CRESCENTE_VERSION);
     app.footer(footer);
-    const std::array commands = {add_render(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app)};
+    const std::array commands = {add_render(app), add_edit(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app)};
     for (const Command& command : commands) command.parser->allow_extras();
     app.allow_extras();
 
@@ -87,7 +88,7 @@ ExitCode run(int count, char** arguments) {
         for (const Command& command : commands) names.push_back(command.parser->get_name());
         return usage("there is no command '" + unknown.front() + "'", spelling_hint(unknown.front(), names));
     }
-    return usage("a command is missing", "render, info, bench, compare, formats or schema; see `crescente --help`");
+    return usage("a command is missing", "render, edit, info, bench, compare, formats or schema; see `crescente --help`");
 }
 
 }  // namespace

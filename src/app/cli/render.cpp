@@ -11,15 +11,14 @@
 #include "app/cli/command.h"
 #include "io/content_hash.h"
 #include "app/cli/load.h"
+#include "app/cli/picture_options.h"
 #include "app/cli/progress.h"
 #include "app/cli/quantities.h"
 #include "app/cli/scene_options.h"
 #include "app/cli/stats_json.h"
 #include "app/cli/stop.h"
 #include "io/atomic_file.h"
-#include "io/image_file.h"
 #include "render/session.h"
-#include "scene/hierarchy.h"
 
 namespace crescente::app {
 namespace {
@@ -29,11 +28,9 @@ using Clock = std::chrono::steady_clock;
 // As the user wrote them.
 struct RenderOptions {
     SceneOptions scene;
-    std::vector<std::string> outputs;
-    std::string stats_file, tonemap;
+    PictureOptions picture;
+    std::string stats_file;
     std::optional<std::string> time, replay;
-    std::optional<double> exposure;
-    int bits = 8;
     bool quiet = false;
 };
 
@@ -46,7 +43,6 @@ struct Request {
     SceneRequest scene;
     std::optional<std::chrono::duration<double>> time;
     std::optional<Pixel> replay;
-    std::optional<scene::Tonemap> tonemap;
 };
 
 // Wall time of the parts of a run, seconds; cpu: of all threads.
@@ -78,9 +74,6 @@ Expected<Request> understand(const RenderOptions& options) {
     };
     keep(app::understand(options.scene), request.scene);
     if (options.time) keep(parse_duration("--time", *options.time), request.time);
-    if (options.tonemap == "srgb") request.tonemap = scene::Tonemap::srgb;
-    if (options.tonemap == "neutral") request.tonemap = scene::Tonemap::neutral;
-    if (options.tonemap == "auto") request.tonemap = scene::Tonemap::automatic;
     if (options.replay) {
         std::vector<double> numbers;
         keep(parse_numbers("--replay", *options.replay), numbers);
@@ -98,16 +91,10 @@ Expected<Request> understand(const RenderOptions& options) {
 
 // Every output that cannot be written, before anything is rendered.
 Expected<void> check_outputs(const RenderOptions& options) {
-    Error unwritable{ErrorKind::output, {}};
-    const auto check = [&](const Expected<void>& writable) {
-        if (writable) return;
-        if (unwritable.problems.empty()) unwritable.kind = writable.error().kind;
-        unwritable.problems.insert(unwritable.problems.end(), writable.error().problems.begin(), writable.error().problems.end());
-    };
-    for (const std::string& output : options.outputs) check(io::can_write(output));
-    if (!options.stats_file.empty()) check(io::can_write_file(options.stats_file));
-    if (!unwritable.problems.empty()) return tl::unexpected<Error>(std::move(unwritable));
-    return {};
+    OutputCheck check;
+    for (const std::string& output : options.picture.outputs) check.add(io::can_write(output));
+    if (!options.stats_file.empty()) check.add(io::can_write_file(options.stats_file));
+    return check.result();
 }
 
 // Lets the picture grow until it is complete, the time is over or the user has seen enough. The first whole picture is
@@ -128,35 +115,6 @@ Ending grow(render::Session& session, const Request& request, const StopRequests
         if (stop.asked()) return Ending::asked;
         if (Clock::now() >= end) return Ending::time;
     }
-}
-
-// sRGB for classic materials, whose colours are meant for the screen; the neutral curve as soon as a physical one is seen.
-scene::Tonemap automatic_tonemap(const scene::Scene& scene) {
-    bool physical = false;
-    scene::for_each_appearance(scene, [&](std::uint32_t, const math::Affine&, const std::vector<scene::MaterialId>& materials) {
-        if (materials.empty()) physical |= std::holds_alternative<scene::PhysicalMaterial>(scene::Material{}.model);
-        for (const scene::MaterialId id : materials) {
-            physical |= id.valid() && std::holds_alternative<scene::PhysicalMaterial>(scene.materials[id.value].model);
-        }
-    });
-    return physical ? scene::Tonemap::neutral : scene::Tonemap::srgb;
-}
-
-io::ImageOptions image_options(const RenderOptions& options, const Request& request, const scene::Scene& scene) {
-    io::ImageOptions image;
-    image.tonemap = request.tonemap.value_or(scene.settings.tonemap);
-    if (image.tonemap == scene::Tonemap::automatic) image.tonemap = automatic_tonemap(scene);
-    image.exposure = options.exposure.value_or(scene.settings.exposure);
-    image.bits = options.bits;
-    return image;
-}
-
-// EXR keeps every layer; the other formats show the first.
-bool needs_all_layers(const std::vector<std::string>& outputs) {
-    return std::any_of(outputs.begin(), outputs.end(), [](const std::string& output) {
-        const std::string extension = std::filesystem::path(output).extension();
-        return extension == ".exr" || extension == ".EXR";
-    });
 }
 
 std::string summary(const render::Stats& stats, const scene::Settings& settings, const RunTimes& times, const std::string& output) {
@@ -207,7 +165,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (settings.order == scene::Order::automatic && !request->time) {
         // Nobody watches, and nobody comes back to the rays: the fastest way to the finished picture.
         loaded->scene.settings.order = scene::Order::tiles;
-        loaded->scene.settings.keep = settings.keep && (request->replay || needs_all_layers(options.outputs));
+        loaded->scene.settings.keep = settings.keep && (request->replay || needs_all_layers(options.picture.outputs));
     }
     auto session = render::Session::open(std::move(loaded->scene));
     if (!session) return fail(session.error());
@@ -236,15 +194,15 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     report.update(stats_json(stats));
     report["time"] = {{"load", times.load}, {"build", stats.build_seconds}, {"render", times.render}};
 
-    if (!options.outputs.empty()) {
+    if (!options.picture.outputs.empty()) {
         const auto write_start = Clock::now();
-        const scene::Image picture = session->picture(needs_all_layers(options.outputs));
-        io::ImageOptions image = image_options(options, *request, session->scene());
+        const scene::Image picture = session->picture(needs_all_layers(options.picture.outputs));
+        io::ImageOptions image = image_options(options.picture, session->scene());
         image.metadata = {{"Software", std::string("Crescente ") + CRESCENTE_VERSION},
                           {"Command", invocation.command_line},
                           {"SceneHash", "xxh64:" + *hash},
                           {"Statistics", report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)}};
-        for (const std::string& output : options.outputs) {
+        for (const std::string& output : options.picture.outputs) {
             if (const auto written = io::write_image(picture, output, image); !written) return fail(written.error());
         }
         times.write = seconds_since(write_start);
@@ -264,7 +222,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
         if (ending == Ending::time) note("the time was over before the picture was complete: it is whole, but not yet as fine as asked");
         if (ending == Ending::asked) note("stopped before the picture was complete: it is whole, but not yet as fine as asked");
         std::string outputs;
-        for (const std::string& output : options.outputs) outputs += (outputs.empty() ? "" : ", ") + output;
+        for (const std::string& output : options.picture.outputs) outputs += (outputs.empty() ? "" : ", ") + output;
         std::cout << summary(stats, settings, times, outputs);
     }
     if (request->replay) std::cout << session->describe(request->replay->x, request->replay->y);
@@ -278,13 +236,8 @@ Command add_render(CLI::App& app) {
     CLI::App* parser = app.add_subcommand("render", "Render a picture");
     const auto options = std::make_shared<RenderOptions>();
     add_scene_options(*parser, options->scene);
-    parser->add_option("-o,--output", options->outputs, "Where the picture goes: .png .jpg .tif .hdr .exr (repeatable)")
-        ->option_text("FILE")->required()->expected(1)->take_all();
+    add_picture_options(*parser, options->picture, true);
     parser->add_option("--time", options->time, "Stop rendering after this time (10s, 2m): the picture is whole at any moment")->option_text("TIME");
-    parser->add_option("--tonemap", options->tonemap, "Display colours: auto, srgb or neutral (Khronos PBR Neutral)")
-        ->option_text("NAME")->check(CLI::IsMember({"auto", "srgb", "neutral"}));
-    parser->add_option("--exposure", options->exposure, "Brightness of the picture in stops")->option_text("STOPS")->check(CLI::Range(-32.0, 32.0));
-    parser->add_option("--bits", options->bits, "Bits of a channel in PNG and TIFF")->option_text("8|16")->check(CLI::IsMember({8, 16}));
     parser->add_option("--stats", options->stats_file, "Write counters and times as JSON")->option_text("FILE");
     parser->add_option("--replay", options->replay, "Print the ray tree of a pixel, counted from the top left")->option_text("X,Y");
     parser->add_flag("-q,--quiet", options->quiet, "No progress and no summary");

@@ -8,6 +8,7 @@ namespace crescente::app {
 // docs/cli.md documents these.
 enum ExitCode : int {
     exit_ok = 0,
+    exit_different = 1,   // pictures that must be equal are not
     exit_usage = 2,
     exit_input = 3,
     exit_output = 4,

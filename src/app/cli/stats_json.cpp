@@ -1,14 +1,11 @@
 #include "app/cli/stats_json.h"
 
 namespace crescente::app {
-namespace {
 
 nlohmann::ordered_json rays_json(const render::RayCounts& rays) {
     return {{"camera", rays.camera}, {"reflected", rays.reflected}, {"refracted", rays.refracted},
             {"shadow", rays.shadow}, {"total", rays.total()}};
 }
-
-}  // namespace
 
 nlohmann::ordered_json stats_json(const render::Stats& stats) {
     nlohmann::ordered_json levels = nlohmann::ordered_json::array();

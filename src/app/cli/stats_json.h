@@ -7,6 +7,8 @@
 
 namespace crescente::app {
 
+nlohmann::ordered_json rays_json(const render::RayCounts& rays);
+
 // What Session counts: rays, tests, nodes, memory, levels, threads.
 nlohmann::ordered_json stats_json(const render::Stats& stats);
 
