@@ -145,10 +145,15 @@ void Growth::light_points(bool shadows, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
     for (PointLanes& p : points_) {
+        p.physical = 0;
         for (int i = 0; i < p.count; ++i) {
             Node& node = tile_.nodes[p.node[i]];
             const Lobes& lobes = world_.lobes[node.material];
             p.lobes[i] = &lobes;
+            if (lobes.layered()) {
+                p.physical |= 1u << i;
+                set_lane(p.view, i, physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i))));
+            }
             p.sum[i] = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
             node.shadowed = node.shadowed || shadows;
         }
@@ -168,13 +173,29 @@ void Growth::light_points(bool shadows, Coherence coherence) {
         for (PointLanes& p : points_) {
             for (unsigned rest = p.lit; rest; rest &= rest - 1) {
                 const int i = __builtin_ctz(rest);
+                if (!may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + l])) p.lit &= ~(1u << i);
+            }
+            if (!p.lit) continue;
+            Lanes radiance[3];
+            if (const unsigned physical = p.lit & p.physical) {
+                Lanes layer_kept{};
+                for (unsigned rest = physical; rest; rest &= rest - 1) {
+                    const int i = __builtin_ctz(rest);
+                    if (p.view.layer_kept[i] > 0) layer_kept[i] = layer_reflectance(*p.lobes[i], p.cosine[i]);
+                }
+                reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer_kept, light.makes_highlights(), radiance);
+            }
+            for (unsigned rest = p.lit; rest; rest &= rest - 1) {
+                const int i = __builtin_ctz(rest);
                 const std::size_t key = std::size_t{p.node[i]} * lights + l;
-                const Share share = tile_.shares[key];
-                if (!may_arrive(share)) continue;
                 Rgb strength = light.color() * static_cast<float>(p.reach.factor[i]);
-                if (share == Share::filtered) strength *= tile_.filtered.at(key);
-                p.sum[i] += strength * reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i],
-                                                     light.makes_highlights());
+                if (tile_.shares[key] == Share::filtered) strength *= tile_.filtered.at(key);
+                if (p.physical >> i & 1) {
+                    p.sum[i] += strength * Rgb{static_cast<float>(radiance[0][i]), static_cast<float>(radiance[1][i]), static_cast<float>(radiance[2][i])};
+                } else {
+                    p.sum[i] += strength * reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i],
+                                                         light.makes_highlights());
+                }
             }
         }
     }

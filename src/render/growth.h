@@ -7,6 +7,7 @@
 #include "math/octahedral.h"
 #include "render/deadline.h"
 #include "render/forest.h"
+#include "render/physical_view.h"
 #include "render/world.h"
 
 namespace crescente::render {
@@ -65,6 +66,8 @@ private:
         OctahedralPoint<Lanes> code;  // of the geometric normal, in steps
         Lanes offset;
         const Lobes* lobes[lane_count];
+        unsigned physical;            // lanes of physical materials
+        PhysicalView<Lanes> view;     // theirs
         Rgb sum[lane_count];
         // Of the current light:
         Reach<Lanes> reach;

@@ -1,5 +1,7 @@
 #include "render/lobes.h"
 
+#include "render/physical_view.h"
+
 namespace crescente::render {
 namespace {
 
@@ -73,37 +75,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
 }
 
 // Schlick's approximation of Fresnel's equations (1994), from f0 to f90.
-float fifth_power(double m) { return static_cast<float>(m * m * m * m * m); }
-Rgb schlick(Rgb f0, float f90, double cosine) { return f0 + (gray(f90) - f0) * fifth_power(1 - cosine); }
-
-// Trowbridge-Reitz distribution with the height-correlated Smith term (Walter et al. 2007; Heitz 2014).
-Rgb ggx(const Lobes& lobes, double n_v, double n_l, double n_h, double v_h) {
-    const double a2 = double(lobes.alpha) * lobes.alpha;
-    const double d = n_h * n_h * (a2 - 1) + 1;
-    const double distribution = a2 / (pi * d * d);
-    const double smith = n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2);
-    return schlick(lobes.highlight, lobes.coverage, v_h) * static_cast<float>(distribution * 0.5 / std::max(smith, 1e-9) * n_l);
-}
-
-// What a rough layer reflects of all the light that comes from one direction.
-float layer_reflectance(const Lobes& lobes, double cosine) {
-    const SplitSum sum = split_sum(lobes.sums, cosine);
-    return sum.scale * lobes.layer_f0 + sum.bias;
-}
-
-Rgb reflect_light_physical(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
-    // Cosines of the half vector, without computing it: the sum of two unit vectors is twice as long as its projection on either.
-    const double facing = dot(normal, to_viewer), n_v = std::clamp(facing, 1e-4, 1.0);
-    const double v_h = std::sqrt(std::clamp(0.5 + 0.5 * dot(to_viewer, to_light), 1e-12, 1.0));
-    Rgb result;
-    if (!is_black(lobes.diffuse)) {
-        const float fresnel = lobes.layer_f0 + (1 - lobes.layer_f0) * fifth_power(1 - v_h);
-        const float kept = std::max({fresnel, layer_reflectance(lobes, n_v), layer_reflectance(lobes, cosine)});
-        result = lobes.diffuse * (static_cast<float>(cosine) * (1 - kept));
-    }
-    if (with_highlight) result += ggx(lobes, n_v, cosine, std::clamp((facing + cosine) / (2 * v_h), 0.0, 1.0), v_h);
-    return result;
-}
+Rgb schlick(Rgb f0, float f90, double cosine) { return f0 + (gray(f90) - f0) * static_cast<float>(fifth_power(1 - cosine)); }
 
 }  // namespace
 
@@ -113,7 +85,11 @@ Lobes compile(const scene::Material& material) {
 }
 
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
-    if (lobes.layered()) return reflect_light_physical(lobes, normal, to_viewer, to_light, cosine, with_highlight);
+    if (lobes.layered()) {
+        double radiance[3];
+        reflect_physical(physical_view(lobes, dot(normal, to_viewer)), cosine, dot(to_viewer, to_light), layer_reflectance(lobes, cosine), with_highlight, radiance);
+        return {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
+    }
     Rgb result = lobes.diffuse * static_cast<float>(cosine);
     if (!with_highlight || lobes.highlight_lobe == HighlightLobe::none) return result;
     if (lobes.highlight_lobe == HighlightLobe::phong) {

@@ -60,10 +60,6 @@ float layer_mirrors(const Lobes& lobes, double cosine, bool inside);
 
 // Light arriving from direction `to_light` (unit) with the given strength, leaving towards `to_viewer` (unit): radiance per unit of
 // strength. Both are on the side of the shading normal; cosine = dot(normal, to_light) > 0.
-//
-// Physical materials: glTF 2.0, appendix B. The dielectric's layer lets 1 - F through to the diffuse lobe, F taken at the half vector. That alone
-// would give back up to 1.3 times the light at grazing angles, where the lobe reflects more than that F; so no more passes than the layer's
-// whole reflectance leaves, seen from either end (as KHR_materials_sheen scales by albedo).
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight);
 
 // Share of light reflected by a smooth dielectric, unpolarised (Fresnel 1823). cosine: of the angle of incidence, >= 0. eta: index
