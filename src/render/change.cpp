@@ -6,11 +6,6 @@
 namespace crescente::render {
 namespace {
 
-std::span<const std::uint32_t> slots_of(const World& world, std::uint32_t instance) {
-    const std::size_t first = world.first_slot[instance], end = instance + 1 < world.first_slot.size() ? world.first_slot[instance + 1] : world.slots.size();
-    return {world.slots.data() + first, end - first};
-}
-
 bool may_filter(const World& world, std::uint32_t instance) { return !world.instances[instance].opaque; }
 
 class Comparison {
@@ -103,7 +98,7 @@ private:
         const auto is_shown = [&](scene::ShapeId id) { return &now_.scene.shapes[id.value].shape == b.shape; };
         if (a.shape != b.shape || a.to_world != b.to_world || std::any_of(reshaped_.begin(), reshaped_.end(), is_shown)) return false;
         // Of a surface with one side rays do not meet the other.
-        const auto x = slots_of(before_, was), y = slots_of(now_, i);
+        const auto x = before_.slots_of(was), y = now_.slots_of(i);
         const std::size_t slots = std::max(x.size(), y.size());
         for (std::size_t k = 0; k < slots; ++k) {
             if (before_.lobes[x[std::min(k, x.size() - 1)]].one_sided != now_.lobes[y[std::min(k, y.size() - 1)]].one_sided) return false;
@@ -112,7 +107,7 @@ private:
     }
 
     void compare_slots(std::uint32_t was, std::uint32_t i) {
-        const auto x = slots_of(before_, was), y = slots_of(now_, i);
+        const auto x = before_.slots_of(was), y = now_.slots_of(i);
         const std::size_t slots = std::max(x.size(), y.size());
         bool filters = false;
         for (std::size_t k = 0; k < slots; ++k) {

@@ -91,6 +91,14 @@ std::vector<Rgb> develop(const Tile& tile) {
     return pixels;
 }
 
+Tile without_trees(const Tile& tile) {
+    Tile rest = blank_tile(tile);
+    rest.pixels = develop(tile);
+    rest.rays = tile.rays;
+    rest.tests = tile.tests;
+    return rest;
+}
+
 scene::Image blank_image(int width, int height, bool all_layers) {
     scene::Image image{width, height, {}};
     const auto add = [&](const char* name, std::vector<std::string> channels) {

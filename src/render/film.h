@@ -13,6 +13,9 @@ namespace crescente::render {
 // Before all corners are there, coarser ones are interpolated. Black for a tile without any.
 std::vector<Rgb> develop(const Tile& tile);
 
+// The tile with its picture and counts alone.
+Tile without_trees(const Tile& tile);
+
 // Names, channels and room for the layers of a picture; see scene/image.h.
 scene::Image blank_image(int width, int height, bool all_layers);
 

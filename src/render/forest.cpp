@@ -34,6 +34,13 @@ void Tile::trim() {
     todo.shrink_to_fit();
 }
 
+Tile blank_tile(const Tile& place) {
+    Tile tile;
+    tile.x0 = place.x0, tile.y0 = place.y0, tile.width = place.width, tile.height = place.height;
+    tile.revision = place.revision;
+    return tile;
+}
+
 Rgb influence(const Tile& tile, std::uint32_t node) {
     std::array<std::uint32_t, 256> way;  // upwards: as many as Node::depth can count
     std::size_t steps = 0;

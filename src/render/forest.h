@@ -129,6 +129,9 @@ void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
     if (child != tile.straight.end() && !tile.nodes[child->second].hidden) visit(child->second, Way::straight);
 }
 
+// A tile of the same pixels that nothing was done for yet; it knows the same edits.
+Tile blank_tile(const Tile& place);
+
 // The product of the weights from the pixel down to the node, taken in this order.
 Rgb influence(const Tile& tile, std::uint32_t node);
 

@@ -27,13 +27,20 @@ void make_rays(const Vec3Lanes& origin, const Vec3Lanes& direction, const Lanes&
     std::memcpy(static_cast<void*>(rays), rows, sizeof rows);
 }
 
+constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
+
 }  // namespace
 
+geometry::Ray camera_ray(const World& world, LatticePoint point) { return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step); }
+
+Rgb backdrop_at(const World& world, LatticePoint point) {
+    return backdrop_radiance(world.environment, 1 - point.y * pixels_per_step / world.camera.height());
+}
+
 std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first) {
-    constexpr double scale = 1.0 / (1 << subpixel_bits);
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
     rays_.clear();
-    for (const LatticePoint& p : points) rays_.push_back(world_.camera.through(p.x * scale, p.y * scale));
+    for (const LatticePoint& p : points) rays_.push_back(camera_ray(world_, p));
     hits_.resize(points.size());
     accel::TestCounts counts;
 
@@ -64,7 +71,7 @@ std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<
     append();
     if (world_.environment.backdrop) {
         for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!hits_[i].found()) tile_.nodes[first + i].local = backdrop_radiance(world_.environment, 1 - points[i].y * scale / world_.camera.height());
+            if (!hits_[i].found()) tile_.nodes[first + i].local = backdrop_at(world_, points[i]);
         }
     }
     return first;

@@ -22,6 +22,11 @@ inline constexpr int subpixel_bits = 6;  // more than the most splits that the s
 constexpr std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
 constexpr LatticePoint point_of(std::uint64_t key) { return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}; }
 
+geometry::Ray camera_ray(const World& world, LatticePoint point);
+
+// What the camera sees through a point where nothing is met, if the environment has a backdrop.
+Rgb backdrop_at(const World& world, LatticePoint point);
+
 // Work is cut into chunks of this many rays, between which a deadline is looked at.
 inline constexpr std::size_t chunk_size = 256;
 

@@ -127,9 +127,7 @@ private:
             const Vec3 origin = tile_.nodes[node.parent].position;
             return passes_any(change_.came, origin, node.left_scene() ? node.position : node.position - origin, node.left_scene() ? infinity : 1);
         }
-        constexpr double scale = 1.0 / (1 << subpixel_bits);
-        const LatticePoint at = point_of(place_[i]);
-        const geometry::Ray ray = now_.camera.through(at.x * scale, at.y * scale);
+        const geometry::Ray ray = camera_ray(now_, point_of(place_[i]));
         return passes_any(change_.came, ray.origin, ray.direction, node.left_scene() ? infinity : dot(node.position - ray.origin, ray.direction));
     }
 
@@ -162,9 +160,8 @@ private:
     }
     void update_sky(Node& node, LatticePoint at) {
         const Rgb was = node.local;
-        constexpr double scale = 1.0 / (1 << subpixel_bits);
         const bool backdrop = node.parent == no_node && now_.environment.backdrop;
-        node.local = backdrop ? backdrop_radiance(now_.environment, 1 - at.y * scale / now_.camera.height()) : environment_radiance(now_.environment, node.position);
+        node.local = backdrop ? backdrop_at(now_, at) : environment_radiance(now_.environment, node.position);
         if (node.local != was) touched_ = true;
     }
     void relight(Node& node) {
@@ -325,12 +322,7 @@ private:
 
 // The tile without its trees; its picture stays until there is another.
 void begin_anew(Tile& tile) {
-    Tile rest;
-    rest.x0 = tile.x0, rest.y0 = tile.y0, rest.width = tile.width, rest.height = tile.height;
-    rest.pixels = develop(tile);
-    rest.rays = tile.rays, rest.tests = tile.tests;
-    rest.revision = tile.revision;
-    tile = std::move(rest);
+    tile = without_trees(tile);
 }
 
 // Lights the nodes that wait for it.

@@ -64,13 +64,6 @@ namespace {
 
 const LevelKind& kind_of(scene::Level level) { return levels()[static_cast<std::size_t>(level)]; }
 
-Tile blank_tile(const Tile& place) {
-    Tile tile;
-    tile.x0 = place.x0, tile.y0 = place.y0, tile.width = place.width, tile.height = place.height;
-    tile.revision = place.revision;
-    return tile;
-}
-
 }  // namespace
 
 void Session::State::plan_stages() {
@@ -148,11 +141,8 @@ Tile Session::State::regrown(const Tile& tile) const {
 }
 
 std::vector<Node> Session::State::drop(Tile& tile) {
-    Tile rest = blank_tile(tile);
+    Tile rest = without_trees(tile);
     rest.pixels_stage = tile.shown_stage();
-    rest.pixels = develop(tile);
-    rest.rays = tile.rays;
-    rest.tests = tile.tests;
     std::vector<Node> nodes = std::move(tile.nodes);
     tile = std::move(rest);
     return nodes;

@@ -41,8 +41,7 @@ void derive(World& world) {
     });
     for (const std::uint32_t slot : world.slots) world.one_sided.push_back(world.lobes[slot].one_sided);
     for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
-        const std::size_t end = i + 1 < world.instances.size() ? world.first_slot[i + 1] : world.slots.size();
-        const std::span sides(world.one_sided.data() + world.first_slot[i], end - world.first_slot[i]);
+        const std::span sides(world.one_sided.data() + world.first_slot[i], world.slots_of(i).size());
         if (std::any_of(sides.begin(), sides.end(), [](std::uint8_t one) { return one != 0; })) world.instances[i].one_sided = sides;
     }
     for (const scene::Light& light : s.lights) world.lights.emplace_back(light);

@@ -35,8 +35,13 @@ struct World {
 
     // Index into lobes of what a hit's surface is made of.
     std::uint32_t material(std::uint32_t instance, std::uint32_t slot) const {
-        const std::uint32_t first = first_slot[instance], end = instance + 1 < first_slot.size() ? first_slot[instance + 1] : std::uint32_t(slots.size());
-        return slots[std::min(first + slot, end - 1)];
+        const auto own = slots_of(instance);
+        return own[std::min<std::size_t>(slot, own.size() - 1)];
+    }
+    // By the slots of its shape, the last for all beyond: what an instance is made of. Never empty.
+    std::span<const std::uint32_t> slots_of(std::uint32_t instance) const {
+        const std::size_t first = first_slot[instance], end = instance + 1 < first_slot.size() ? first_slot[instance + 1] : slots.size();
+        return {slots.data() + first, end - first};
     }
 };
 
