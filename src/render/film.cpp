@@ -1,7 +1,9 @@
 #include "render/film.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace crescente::render {
@@ -89,6 +91,24 @@ std::vector<Rgb> develop(const Tile& tile) {
         }
     }
     return pixels;
+}
+
+std::uint32_t root_near(const Tile& tile, int x, int y) {
+    if (tile.corners.empty()) return no_node;
+    if (!tile.quads.empty()) {
+        const Quad& pixel = tile.quads[static_cast<std::size_t>(y) * tile.width + x];
+        constexpr std::size_t bottom_right = 3;  // of the first part
+        if (pixel.parts != no_node && tile.quads[pixel.parts].corners[bottom_right] != no_node) return tile.quads[pixel.parts].corners[bottom_right];
+    }
+    std::uint32_t nearest = no_node;
+    double least = std::numeric_limits<double>::infinity();
+    for (int j = 0; j <= tile.height; ++j) {
+        for (int i = 0; i <= tile.width; ++i) {
+            const double distance = std::hypot(i - (x + 0.5), j - (y + 0.5));
+            if (tile.corner(i, j) != no_node && distance < least) nearest = tile.corner(i, j), least = distance;
+        }
+    }
+    return nearest;
 }
 
 Tile without_trees(const Tile& tile) {

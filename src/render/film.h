@@ -13,6 +13,10 @@ namespace crescente::render {
 // Before all corners are there, coarser ones are interpolated. Black for a tile without any.
 std::vector<Rgb> develop(const Tile& tile);
 
+// The root that says best what a pixel of the tile shows: at its middle where it was split, else at a corner, or as near to it as there is one by now.
+// no_node: nothing is known yet.
+std::uint32_t root_near(const Tile& tile, int x, int y);
+
 // The tile with its picture and counts alone.
 Tile without_trees(const Tile& tile);
 

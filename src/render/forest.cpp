@@ -38,6 +38,7 @@ Tile blank_tile(const Tile& place) {
     Tile tile;
     tile.x0 = place.x0, tile.y0 = place.y0, tile.width = place.width, tile.height = place.height;
     tile.revision = place.revision;
+    tile.changed = place.changed;
     return tile;
 }
 

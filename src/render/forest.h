@@ -101,6 +101,7 @@ struct Tile {
 
     std::uint64_t materials = 0;  // bit i: some node may be of a material whose index is i modulo 64
     std::uint64_t revision = 0;  // edits of the session that the trees know
+    std::uint64_t changed = 0;   // when its picture last did, by the session's clock
     bool unsettled = false;      // an edit touched the trees, and what is missing in them has not been looked for
     bool untried = false;        // with that: ways of lights to nodes are not known any more
     std::size_t forgotten = 0;   // times that a pixel's parts were given up: their roots are still among the nodes

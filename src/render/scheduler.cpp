@@ -12,20 +12,29 @@ std::vector<Work> next_work(std::span<const TileState> tiles, const Plan& plan) 
         if (tiles[i].under_way) work.push_back({i, plan.stages});
     }
     if (!work.empty()) return work;
+    const auto nearest = [&](std::size_t count) {
+        std::stable_sort(work.begin(), work.end(), [&](const Work& a, const Work& b) { return tiles[a.tile].distance < tiles[b.tile].distance; });
+        work.resize(std::min(work.size(), count));
+        return work;
+    };
     const auto kept = [](const TileState& t) { return t.stage == t.shown_stage; };
-    int lowest = plan.stages;
+    int lowest = plan.stages, lowest_looked_at = plan.stages;
     for (const TileState& t : tiles) {
-        if (kept(t)) lowest = std::min(lowest, t.stage);
+        if (!kept(t)) continue;
+        lowest = std::min(lowest, t.stage);
+        if (t.distance == 0) lowest_looked_at = std::min(lowest_looked_at, t.stage);
     }
-    const int until = plan.even || lowest == 0 ? lowest + 1 : plan.stages;
-    for (std::uint32_t i = 0; lowest < plan.stages && i < tiles.size() && work.size() < (until == plan.stages ? most_to_end : most); ++i) {
-        if (kept(tiles[i]) && tiles[i].stage == lowest) work.push_back({i, until});
+    const bool looked_at_only = lowest > 0 && lowest_looked_at < plan.stages;
+    const int stage = looked_at_only ? lowest_looked_at : lowest;
+    const int until = plan.even || stage == 0 ? stage + 1 : plan.stages;
+    for (std::uint32_t i = 0; stage < plan.stages && i < tiles.size(); ++i) {
+        if (kept(tiles[i]) && tiles[i].stage == stage && !(looked_at_only && tiles[i].distance > 0)) work.push_back({i, until});
     }
-    if (!work.empty()) return work;
-    for (std::uint32_t i = 0; i < tiles.size() && work.size() < most_to_end; ++i) {
+    if (!work.empty()) return nearest(until == plan.stages ? most_to_end : most);
+    for (std::uint32_t i = 0; i < tiles.size(); ++i) {
         if (tiles[i].shown_stage < plan.stages) work.push_back({i, plan.stages});
     }
-    return work;
+    return nearest(most_to_end);
 }
 
 std::vector<std::uint32_t> tiles_to_drop(std::span<const TileState> tiles, int stages, std::uint64_t ceiling, std::uint64_t floor) {

@@ -12,6 +12,7 @@ struct TileState {
     int shown_stage = 0;    // stages that its picture has completed: more, if the trees were dropped
     std::uint64_t bytes = 0;
     bool under_way = false;  // interrupted, or on its way to the end after its trees were dropped: dropping it now would undo what was done
+    double distance = 0;     // from where the user looks
 };
 
 struct Work {
@@ -27,7 +28,8 @@ struct Plan {
     std::size_t threads = 1;  // with a batch: most tiles that go to the end in a round, so that only so many are held above the ceiling
 };
 
-// The next round of work: tiles independent of each other. Tiles whose trees were dropped come last, and are grown anew to the end;
+// The next round of work: tiles independent of each other, those nearest to where the user looks first. After the first picture, tiles at distance 0 are
+// worked on before the others. Tiles whose trees were dropped come last, and are grown anew to the end;
 // once begun they go on, whatever the rounds and interruptions between. Empty: all is done.
 std::vector<Work> next_work(std::span<const TileState> tiles, const Plan& plan);
 

@@ -1,6 +1,7 @@
 #include "render/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <mutex>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "render/level.h"
 #include "render/revision.h"
 #include "render/scheduler.h"
+#include "scene/hierarchy.h"
 
 namespace crescente::render {
 
@@ -39,6 +41,8 @@ struct Session::State {
     std::deque<Step> steps;
     std::uint64_t edits = 0;
     std::atomic<std::uint64_t> revised = 0;      // times that an edit touched a tile
+    std::uint64_t clock = 0;                     // ticks when tiles may change
+    Area attended;                               // where the user looks
     RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
     TestCounts past_tests;
 
@@ -52,6 +56,7 @@ struct Session::State {
     void catch_up(Tile& tile);
     bool catch_up(const Deadline& deadline);  // all tiles; whether there was time for it
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
+    const Tile* tile_at(int x, int y) const;  // null: outside the picture
     Tile regrown(const Tile& tile) const;
     static std::vector<Node> drop(Tile& tile);  // gives the memory of its nodes
     void take_spare(Tile& tile);
@@ -63,6 +68,14 @@ struct Session::State {
 namespace {
 
 const LevelKind& kind_of(scene::Level level) { return levels()[static_cast<std::size_t>(level)]; }
+
+// In pixels; 0 if they overlap, or the area is empty.
+double distance(const Tile& tile, const Area& area) {
+    if (area.width <= 0 || area.height <= 0) return 0;
+    const int dx = std::max({0, area.x - (tile.x0 + tile.width), tile.x0 - (area.x + area.width)});
+    const int dy = std::max({0, area.y - (tile.y0 + tile.height), tile.y0 - (area.y + area.height)});
+    return std::hypot(dx, dy);
+}
 
 }  // namespace
 
@@ -86,12 +99,13 @@ void Session::State::catch_up(Tile& tile) {
     for (std::size_t i = steps.size() - static_cast<std::size_t>(edits - tile.revision); i < steps.size(); ++i) {
         revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change);
     }
-    revised += tile.unsettled || tile.nodes.empty();
+    if (tile.unsettled || tile.nodes.empty()) ++revised, tile.changed = clock;
     settle(tile, *world, level_of_stage);
     tile.revision = edits;
 }
 
 bool Session::State::catch_up(const Deadline& deadline) {
+    ++clock;
     if (steps.empty()) return true;
     std::atomic<bool> all = true;
     pool.for_each(tiles.size(), [&](std::size_t i) {
@@ -106,12 +120,14 @@ bool Session::State::catch_up(const Deadline& deadline) {
 void Session::State::cut_tiles() {
     for (const Tile& tile : tiles) past_rays += tile.rays, past_tests += tile.tests;
     tiles.clear();
+    ++clock;
     for (int y = 0; y < height(); y += tile_size()) {
         for (int x = 0; x < width(); x += tile_size()) {
             Tile& tile = tiles.emplace_back();
             tile.x0 = x, tile.y0 = y;
             tile.width = std::min(tile_size(), width() - x), tile.height = std::min(tile_size(), height() - y);
             tile.revision = edits;
+            tile.changed = clock;
         }
     }
 }
@@ -131,6 +147,11 @@ bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadlin
         if (tile.stage < until && deadline.passed()) return false;
     }
     return true;
+}
+
+const Tile* Session::State::tile_at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= width() || y >= height()) return nullptr;
+    return &tiles[static_cast<std::size_t>(y / tile_size()) * tiles_across() + x / tile_size()];
 }
 
 // The tile with its trees as they were when they were dropped.
@@ -176,7 +197,7 @@ std::vector<TileState> Session::State::tile_states() const {
     states.reserve(tiles.size());
     const int last = static_cast<int>(stages.size()) - 1;
     for (const Tile& tile : tiles) {
-        TileState& state = states.emplace_back(TileState{tile.stage, tile.shown_stage(), tile.bytes(), tile.going_on});
+        TileState& state = states.emplace_back(TileState{tile.stage, tile.shown_stage(), tile.bytes(), tile.going_on, distance(tile, attended)});
         if (tile.revision != edits) state.stage = std::min(state.stage, last), state.shown_stage = std::clamp(state.shown_stage, 0, last);  // never done
     }
     return states;
@@ -240,6 +261,7 @@ Progress Session::advance(const Deadline& deadline) {
         s.pool.for_each(work.size(), [&](std::size_t i) {
             if (deadline.passed()) return;
             Tile& tile = s.tiles[work[i].tile];
+            tile.changed = s.clock;
             tile.going_on = ceiling > 0 && work[i].until == stages;
             if (!keep && work[i].until == stages) s.take_spare(tile);
             if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
@@ -316,15 +338,16 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
 
 scene::Image Session::picture(bool all_layers) const {
     State& s = *state_;
-    if (all_layers) s.catch_up(Deadline::never());  // layers speak of the scene as it is
-    scene::Image image = blank_image(s.width(), s.height(), all_layers);
+    if (!all_layers) {
+        Frame frame;
+        refresh(frame);
+        return std::move(frame.image);
+    }
+    s.catch_up(Deadline::never());  // layers speak of the scene as it is
+    scene::Image image = blank_image(s.width(), s.height(), true);
     s.pool.for_each(s.tiles.size(), [&](std::size_t i) {
         const Tile& tile = s.tiles[i];
-        if (all_layers && tile.shows_pixels()) {
-            expose(s.regrown(tile), *s.world, s.level_of_stage, image);
-        } else {
-            expose(tile, *s.world, s.level_of_stage, image);
-        }
+        expose(tile.shows_pixels() ? s.regrown(tile) : tile, *s.world, s.level_of_stage, image);
     });
     return image;
 }
@@ -357,15 +380,47 @@ Stats Session::stats() const {
     return stats;
 }
 
+std::vector<Area> Session::refresh(Frame& frame) const {
+    const State& s = *state_;
+    scene::Image& image = frame.image;
+    if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1) frame = {blank_image(s.width(), s.height(), false), 0};
+    std::vector<const Tile*> changed;
+    std::vector<Area> areas;
+    for (const Tile& tile : s.tiles) {
+        if (tile.changed <= frame.time) continue;
+        changed.push_back(&tile);
+        areas.push_back({tile.x0, tile.y0, tile.width, tile.height});
+    }
+    s.pool.for_each(changed.size(), [&](std::size_t i) { expose(*changed[i], *s.world, s.level_of_stage, image); });
+    frame.time = s.clock;
+    return areas;
+}
+
+void Session::look_at(const Area& area) { state_->attended = area; }
+
 const scene::Scene& Session::scene() const { return state_->world->scene; }
 
 std::string Session::describe(int x, int y) {
     State& s = *state_;
     s.catch_up(Deadline::never());
-    if (x < 0 || y < 0 || x >= s.width() || y >= s.height()) return {};
-    const Tile& tile = s.tiles[static_cast<std::size_t>(y / s.tile_size()) * s.tiles_across() + x / s.tile_size()];
-    if (tile.shows_pixels()) return describe_pixel(s.regrown(tile), *s.world, x - tile.x0, y - tile.y0);
-    return describe_pixel(tile, *s.world, x - tile.x0, y - tile.y0);
+    const Tile* tile = s.tile_at(x, y);
+    if (!tile) return {};
+    return describe_pixel(tile->shows_pixels() ? s.regrown(*tile) : *tile, *s.world, x - tile->x0, y - tile->y0);
+}
+
+std::optional<Pick> Session::pick(int x, int y) {
+    State& s = *state_;
+    s.catch_up(Deadline::never());
+    const Tile* tile = s.tile_at(x, y);
+    if (!tile) return {};
+    const Tile regrown = tile->shows_pixels() ? s.regrown(*tile) : Tile{};
+    const Tile& trees = tile->shows_pixels() ? regrown : *tile;
+    const std::uint32_t root = root_near(trees, x - tile->x0, y - tile->y0);
+    if (root == no_node || trees.nodes[root].left_scene()) return {};
+    const Node& node = trees.nodes[root];
+    const bool named = node.material < s.world->scene.materials.size();
+    return Pick{scene::path_to(s.world->scene, s.world->identity[node.instance]), node.primitive, named ? scene::MaterialId{node.material} : scene::MaterialId{},
+                node.position, {node.normal[0], node.normal[1], node.normal[2]}};
 }
 
 }  // namespace crescente::render

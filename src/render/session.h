@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,25 @@ struct Progress {
     bool first_picture = false;  // the coarsest grid covers the whole frame: picture() is whole
 };
 
+// A rectangle of the picture in pixels, from its top left corner.
+struct Area {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+// A picture of a session that can be brought up to date: the color layer, and when it was taken.
+struct Frame {
+    scene::Image image;
+    std::uint64_t time = 0;  // of the session's clock
+};
+
+// What the camera sees through a pixel.
+struct Pick {
+    std::vector<scene::NodeId> path;  // from a root of the scene down to the node with the shape
+    std::uint32_t primitive = 0;      // of the shape: the face of a CAD part, the triangle of a mesh
+    scene::MaterialId material;       // not valid: the default one
+    math::Vec3 position, normal;      // in the world; the normal is that of shading, unit, on the side of the viewer
+};
+
 // What an edit did to the trees, before any work is done anew.
 struct EditReport {
     std::vector<scene::Edit> undo;   // edits that bring the scene back
@@ -69,6 +89,18 @@ public:
 
     // The picture so far, whole at any moment: layer "color" only, or with all layers (see scene/image.h).
     scene::Image picture(bool all_layers = false) const;
+
+    // Brings the frame's color to what the session shows now, and returns where it was written: the tiles that changed since it was taken. An empty frame,
+    // or one of another size, becomes the whole picture. A frame belongs to one session.
+    std::vector<Area> refresh(Frame& frame) const;
+
+    // Where the user looks: once the whole frame has a first picture, tiles in the area grow before the others, and these in the order of their distance
+    // from it. Empty: nowhere in particular. The converged picture is the same.
+    void look_at(const Area& area);
+
+    // The surface that the camera sees through a pixel, from the trees that are kept; nothing if that is the background, not known yet, or outside the
+    // picture. Traces nothing; under a memory ceiling the tile is recomputed first.
+    std::optional<Pick> pick(int x, int y);
 
     Stats stats() const;
     const scene::Scene& scene() const;

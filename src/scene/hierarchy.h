@@ -14,6 +14,9 @@ struct Appearance {
     std::uint64_t identity;                    // hash of the way down to it, the same whatever else the scene shows; a child listed twice: the same
 };
 
+// Of a node shown by another appearance; of a root, by 0.
+inline std::uint64_t identity_below(std::uint64_t parent, NodeId node) { return math::mix_bits(parent + node.value + 1); }
+
 // Calls visit(Appearance) in the order of the hierarchy (parents before children, as listed). The scene must have passed validate().
 template <class Visit>
 void walk_appearances(const Scene& scene, Visit&& visit) {
@@ -21,7 +24,7 @@ void walk_appearances(const Scene& scene, Visit&& visit) {
     std::vector<Appearance> open;
     const auto open_all = [&](const std::vector<NodeId>& list, const math::Affine& to_world, const std::vector<MaterialId>* materials, std::uint64_t identity) {
         for (auto child = list.rbegin(); child != list.rend(); ++child) {
-            open.push_back({child->value, to_world, materials, math::mix_bits(identity + child->value + 1)});
+            open.push_back({child->value, to_world, materials, identity_below(identity, *child)});
         }
     };
     open_all(scene.roots, {}, &no_materials, 0);
@@ -41,5 +44,8 @@ template <class Visit>
 void for_each_appearance(const Scene& scene, Visit&& visit) {
     walk_appearances(scene, [&](const Appearance& at) { visit(at.node, at.to_world, *at.materials); });
 }
+
+// The nodes from a root down to the one whose appearance has this identity; of several the first. Empty: none has, or it is not visible.
+std::vector<NodeId> path_to(const Scene& scene, std::uint64_t identity);
 
 }  // namespace crescente::scene

@@ -179,6 +179,7 @@ Scene start(std::uint64_t seed) {
 // Plays the script; says what is wrong, or nothing.
 std::string play(const Script& script, bool tell = false) {
     Session session = opened(start(script.seed));
+    Frame frame;  // brought up to date now and then
     std::string told;
     for (const int step : script.steps) {
         Random random(mix_bits(script.seed * 1000 + static_cast<std::uint64_t>(step)));
@@ -195,6 +196,11 @@ std::string play(const Script& script, bool tell = false) {
             told += "\n";
         }
         session.picture(random.chance(0.3));  // whole and safe at any moment
+        if (random.chance(0.5)) {
+            session.refresh(frame);
+            if (const auto same = same_picture(session.picture(), frame.image); !same) return told + "refreshed: " + same.message();
+        }
+        if (random.chance(0.3)) session.look_at({static_cast<int>(random.below(40)), static_cast<int>(random.below(30)), static_cast<int>(random.below(20)), 5});
         auto done = session.edit(std::move(batch));
         if (!done) continue;  // a batch may break the scene: refused whole
         if (random.chance(0.2)) {
@@ -203,6 +209,8 @@ std::string play(const Script& script, bool tell = false) {
         }
     }
     if (!session.advance(Deadline::never()).done) return told + "not done";
+    session.refresh(frame);
+    if (const auto same = same_picture(session.picture(), frame.image); !same) return told + "refreshed: " + same.message();
     auto fresh = Session::open(session.scene());  // in which perhaps nothing is left to be seen
     if (!fresh) return told + fresh.error().text();
     fresh->advance(Deadline::never());
