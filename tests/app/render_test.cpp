@@ -201,6 +201,13 @@ TEST_F(Render, ReplayTellsAPixelsTree) {
     EXPECT_TRUE(contains(outside.err, "outside the picture"));
 }
 
+TEST_F(Render, PickTellsWhatIsUnderAPixel) {
+    const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "--size", "64x64", "--pick", "32,32", "--replay", "32,32", "-q"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    for (const char* said : {"object    ", "shape     sphere", "material  ", "position  ", "normal    "}) EXPECT_TRUE(contains(outcome.out, said)) << outcome.out;
+    EXPECT_EQ(crescente({"render", balls, "-o", path("b.png"), "--size", "64x64", "--pick", "0,64", "-q"}).code, 2);
+}
+
 TEST_F(Render, TonemapAndExposureChangeThePicture) {
     const auto render = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments{"render", balls, "-o", path("a.png"), "--size", "40x30", "-q"};

@@ -95,6 +95,24 @@ TEST(NextWork, EvenTakesAllTilesOfTheLowestStage) {
     EXPECT_EQ(work[0].until, 2);
 }
 
+TEST(NextWork, TilesThatAreLookedAtComeFirst) {
+    std::vector<TileState> tiles{kept(2), kept(1), kept(3), kept(1), kept(5)};
+    tiles[0].distance = 7, tiles[1].distance = 9, tiles[3].distance = 4;  // 2 and 4 are looked at
+    auto work = next_work(tiles, {5, true, 0});
+    ASSERT_EQ(work.size(), 1u);
+    EXPECT_EQ(work[0].tile, 2u);
+    EXPECT_EQ(work[0].until, 4);
+    tiles[2] = kept(5);  // done: then as always, the nearest first
+    work = next_work(tiles, {5, true, 0});
+    ASSERT_EQ(work.size(), 2u);
+    EXPECT_EQ(work[0].tile, 3u);
+    EXPECT_EQ(work[1].tile, 1u);
+    tiles[0] = kept(0), tiles[0].distance = 7;  // the whole frame comes before
+    work = next_work(tiles, {5, true, 0});
+    ASSERT_EQ(work.size(), 1u);
+    EXPECT_EQ(work[0].tile, 0u);
+}
+
 std::uint64_t bytes_after(std::vector<TileState> tiles, const std::vector<std::uint32_t>& drop, std::uint64_t floor) {
     for (const std::uint32_t i : drop) tiles[i].bytes = floor;
     std::uint64_t sum = 0;

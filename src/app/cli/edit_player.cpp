@@ -100,7 +100,8 @@ Expected<void> EditPlayer::play_history(const io::ScriptLine& line, int times, b
 
 void EditPlayer::begin(const io::ScriptLine& line) {
     end();
-    before_ = session_.picture();
+    session_.refresh(frame_);
+    before_ = frame_.image;
     stats_before_ = session_.stats();
     edit_ = PlayedEdit{};
     edit_->line = line.number;
@@ -157,9 +158,9 @@ void EditPlayer::grow(const io::Advance& until) {
 void EditPlayer::look_for_change() {
     if (edit_->first || (edit_->began_anew && !progress_.first_picture)) return;
     const auto start = Clock::now();
-    const scene::Image now = session_.picture();
+    session_.refresh(frame_);
     const double seconds = seconds_since(start);
-    if (different_pixels(before_, now) > 0) edit_->first = elapsed_ + seconds;
+    if (different_pixels(before_, frame_.image) > 0) edit_->first = elapsed_ + seconds;
 }
 
 std::size_t different_pixels(const scene::Image& a, const scene::Image& b) {

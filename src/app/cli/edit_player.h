@@ -58,6 +58,7 @@ private:
     bool advanced_ = false;           // the script lets it grow itself
     double elapsed_ = 0;              // seconds since the edit
     render::Stats stats_before_;
+    render::Frame frame_;  // as it was last looked at
     scene::Image before_;
     render::Progress progress_;
 };

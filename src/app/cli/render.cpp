@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "app/cli/command.h"
 #include "io/content_hash.h"
@@ -30,7 +32,7 @@ struct RenderOptions {
     SceneOptions scene;
     PictureOptions picture;
     std::string stats_file;
-    std::optional<std::string> time, replay;
+    std::optional<std::string> time, replay, pick;
     bool quiet = false;
 };
 
@@ -42,7 +44,7 @@ struct Pixel {
 struct Request {
     SceneRequest scene;
     std::optional<std::chrono::duration<double>> time;
-    std::optional<Pixel> replay;
+    std::optional<Pixel> replay, pick;
 };
 
 // Wall time of the parts of a run, seconds; cpu: of all threads.
@@ -74,19 +76,39 @@ Expected<Request> understand(const RenderOptions& options) {
     };
     keep(app::understand(options.scene), request.scene);
     if (options.time) keep(parse_duration("--time", *options.time), request.time);
-    if (options.replay) {
+    const auto keep_pixel = [&](const char* option, const std::optional<std::string>& text, std::optional<Pixel>& place) {
+        if (!text) return;
         std::vector<double> numbers;
-        keep(parse_numbers("--replay", *options.replay), numbers);
+        keep(parse_numbers(option, *text), numbers);
         constexpr double widest = 65536;
         const auto pixel = [&](double n) { return n >= 0 && n < widest && n == static_cast<int>(n); };
         if (numbers.size() == 2 && pixel(numbers[0]) && pixel(numbers[1])) {
-            request.replay = Pixel{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
+            place = Pixel{static_cast<int>(numbers[0]), static_cast<int>(numbers[1])};
         } else if (!numbers.empty()) {
-            problems.push_back({"", "--replay", "'" + *options.replay + "' is not a pixel", "write x,y, counted from the top left"});
+            problems.push_back({"", option, "'" + *text + "' is not a pixel", "write x,y, counted from the top left"});
         }
-    }
+    };
+    keep_pixel("--replay", options.replay, request.replay);
+    keep_pixel("--pick", options.pick, request.pick);
     if (!problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(problems)});
     return request;
+}
+
+// Lines of what is seen through a pixel.
+std::string pick_text(const scene::Scene& scene, const std::optional<render::Pick>& pick) {
+    if (!pick) return "nothing is there: the background\n";
+    const auto name_or = [](const std::string& name, const char* kind, std::uint32_t index) { return name.empty() ? std::string(kind) + " " + std::to_string(index) : name; };
+    std::ostringstream out;
+    out << "object    ";
+    for (const scene::NodeId& id : pick->path) out << (&id == &pick->path.front() ? "" : " / ") << name_or(scene.nodes[id.value].name, "node", id.value);
+    const geometry::Shape& shape = scene.shapes[scene.nodes[pick->path.back().value].shape.value].shape;
+    out << "\nshape     " << geometry::shape_names[shape.index()] << ", primitive " << pick->primitive << "\nmaterial  "
+        << (pick->material.valid() ? name_or(scene.materials[pick->material.value].name, "material", pick->material.value) : "the default material");
+    const auto coordinates = [&](const char* label, math::Vec3 v) { out << "\n" << label << v.x << " " << v.y << " " << v.z; };
+    out << std::setprecision(9);
+    coordinates("position  ", pick->position);
+    coordinates("normal    ", pick->normal);
+    return out.str() + "\n";
 }
 
 // Every output that cannot be written, before anything is rendered.
@@ -159,13 +181,13 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     times.load = seconds_since(start);
 
     const scene::Settings settings = loaded->scene.settings;
-    if (request->replay && (request->replay->x >= settings.width || request->replay->y >= settings.height)) {
-        return fail({ErrorKind::usage, {{"", "--replay", "the pixel is outside the picture", ""}}});
+    for (const auto& [option, pixel] : {std::pair{"--replay", request->replay}, {"--pick", request->pick}}) {
+        if (pixel && (pixel->x >= settings.width || pixel->y >= settings.height)) return fail({ErrorKind::usage, {{"", option, "the pixel is outside the picture", ""}}});
     }
     if (settings.order == scene::Order::automatic && !request->time) {
         // Nobody watches, and nobody comes back to the rays: the fastest way to the finished picture.
         loaded->scene.settings.order = scene::Order::tiles;
-        loaded->scene.settings.keep = settings.keep && (request->replay || needs_all_layers(options.picture.outputs));
+        loaded->scene.settings.keep = settings.keep && (request->replay || request->pick || needs_all_layers(options.picture.outputs));
     }
     auto session = render::Session::open(std::move(loaded->scene));
     if (!session) return fail(session.error());
@@ -226,6 +248,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
         std::cout << summary(stats, settings, times, outputs);
     }
     if (request->replay) std::cout << session->describe(request->replay->x, request->replay->y);
+    if (request->pick) std::cout << pick_text(session->scene(), session->pick(request->pick->x, request->pick->y));
     std::cout.flush();
     return std::cout ? exit_ok : fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
 }
@@ -240,6 +263,7 @@ Command add_render(CLI::App& app) {
     parser->add_option("--time", options->time, "Stop rendering after this time (10s, 2m): the picture is whole at any moment")->option_text("TIME");
     parser->add_option("--stats", options->stats_file, "Write counters and times as JSON")->option_text("FILE");
     parser->add_option("--replay", options->replay, "Print the ray tree of a pixel, counted from the top left")->option_text("X,Y");
+    parser->add_option("--pick", options->pick, "Print what is seen through a pixel: object, face, material, position, normal")->option_text("X,Y");
     parser->add_flag("-q,--quiet", options->quiet, "No progress and no summary");
     parser->footer(
         "Ctrl-C once finishes with the picture so far, twice stops at once and writes nothing.\n\n"
