@@ -12,6 +12,7 @@ struct Deadline {
     const std::atomic<bool>* stop = nullptr;  // set by another thread, or a signal handler, to come back at once
 
     static Deadline never() { return {}; }
+    bool is_never() const { return !stop && at == std::chrono::steady_clock::time_point::max(); }
     static Deadline in(std::chrono::nanoseconds time) { return {std::chrono::steady_clock::now() + time, nullptr}; }
     bool passed() const { return (stop && stop->load(std::memory_order_relaxed)) || std::chrono::steady_clock::now() >= at; }
 };

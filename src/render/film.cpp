@@ -1,5 +1,6 @@
 #include "render/film.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -76,6 +77,7 @@ std::vector<Rgb> develop(const Tile& tile) {
     if (tile.shows_pixels()) return tile.pixels;
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
     const bool edited = !tile.pixels.empty();  // what is not known anew is still shown as it was
+    const bool previewed = edited && tile.stage < tile.previewed_until;
     const std::vector<Quad>& quads = tile.quads_before.empty() ? tile.quads : tile.quads_before;
     const int step = !quads.empty() || (edited && !tile.corners.empty()) ? 1 : whole_grid(tile);
     if (step == 0) return edited ? tile.pixels : std::vector<Rgb>(count);
@@ -86,7 +88,8 @@ std::vector<Rgb> develop(const Tile& tile) {
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
             const std::array corners{tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)};
-            const auto pixel = quads.empty() ? mean_of(radiance, corners) : mean_of(quads, radiance, quads[pixels.size()]);
+            const bool old = previewed && std::any_of(corners.begin(), corners.end(), [&](std::uint32_t root) { return root < tile.kept; });
+            const auto pixel = old ? std::nullopt : quads.empty() ? mean_of(radiance, corners) : mean_of(quads, radiance, quads[pixels.size()]);
             pixels.push_back(pixel ? *pixel : edited ? tile.pixels[pixels.size()] : Rgb{});
         }
     }

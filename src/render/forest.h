@@ -96,6 +96,8 @@ struct Tile {
     std::vector<std::uint32_t> todo;  // what the next stage works through: its meaning is the stage's
     std::vector<Rgb> pixels;  // what the trees gave at an earlier time: before they were dropped, left unlit or edited
     int pixels_stage = -1;    // stages that were complete then; -1: never
+    int previewed_until = 0;  // before this stage only pixels whose corners were all grown since an edit are shown by their trees, the others by `pixels`
+    std::uint32_t kept = 0;   // with that: nodes that the edit left; those after them were grown since
     bool going_on = false;    // dropped before it was finished, and being grown anew to the end
     bool lit = true;          // false: some nodes wait for their light
 

@@ -43,7 +43,8 @@ constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
 class Reviser {
 public:
-    Reviser(Tile& tile, const World& before, const World& now, const Change& change) : tile_(tile), before_(before), now_(now), change_(change) {}
+    Reviser(Tile& tile, const World& before, const World& now, const Change& change, bool watched)
+        : tile_(tile), before_(before), now_(now), change_(change), watched_(watched) {}
 
     void run() {
         const std::size_t count = tile_.nodes.size();
@@ -69,6 +70,8 @@ public:
         tile_.split_anew = tile_.split_anew || lost_roots_ || untidy || change_.splitting || change_.stages;
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
+        if (watched_ && touched_ && !lost_roots_ && !tile_.unsettled) tile_.pixels = develop(tile_);
+        if (touched_) tile_.previewed_until = 0;
         if (lost_any_) compact();
         if (rays_may_end_elsewhere || untidy) tile_.forgotten = 0;
         if (!now_.absorbs && (weights_changed_ || change_.frontier || spawns_again_)) weigh();
@@ -315,6 +318,7 @@ private:
     Tile& tile_;
     const World &before_, &now_;
     const Change& change_;
+    const bool watched_;
     std::vector<std::uint64_t> place_;  // by node: key of a root's point
     std::vector<std::uint8_t> lost_, spawn_again_, bends_;  // by node
     bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false;
@@ -341,11 +345,11 @@ void light_again(Tile& tile, const World& world) {
 
 }  // namespace
 
-void revise(Tile& tile, const World& before, const World& now, const Change& change) {
+void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched) {
     if (!change.touches_trees()) return;
     if (change.anew || tile.nodes.empty()) return begin_anew(tile);
     if (change.lobes_only && !(change.lobes_bits & tile.materials)) return;
-    Reviser(tile, before, now, change).run();
+    Reviser(tile, before, now, change, watched).run();
 }
 
 void settle(Tile& tile, const World& world, std::span<const scene::Level> level_of_stage) {
@@ -371,6 +375,7 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const bool complete = tile.stage == static_cast<int>(level_of_stage.size()) && tile.quads_before.empty();
     if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
     tile.stage = std::min({tile.stage, stage, edges});
+    if (tile.previewed_until > 0) tile.previewed_until = stage <= shadows ? shadows + 1 : stage == reflections ? edges : 0;
 }
 
 }  // namespace crescente::render

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <deque>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "parallel/pool.h"
 #include "render/describe.h"
 #include "render/film.h"
 #include "render/level.h"
+#include "render/preview.h"
 #include "render/revision.h"
 #include "render/scheduler.h"
 #include "scene/hierarchy.h"
@@ -40,6 +42,7 @@ struct Session::State {
     };
     std::deque<Step> steps;
     std::uint64_t edits = 0;
+    bool settled = true;                         // no tile waits for revision or settling
     std::atomic<std::uint64_t> revised = 0;      // times that an edit touched a tile
     std::uint64_t clock = 0;                     // ticks when tiles may change
     Area attended;                               // where the user looks
@@ -53,7 +56,7 @@ struct Session::State {
 
     void plan_stages();
     void cut_tiles();
-    void catch_up(Tile& tile);
+    bool revise(Tile& tile, bool watched);    // whether there was an edit that it did not know
     bool catch_up(const Deadline& deadline);  // all tiles; whether there was time for it
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
     const Tile* tile_at(int x, int y) const;  // null: outside the picture
@@ -94,27 +97,42 @@ void Session::State::plan_stages() {
     level_rays.resize(levels().size());
 }
 
-void Session::State::catch_up(Tile& tile) {
-    if (tile.revision == edits) return;
+bool Session::State::revise(Tile& tile, bool watched) {
+    if (tile.revision == edits) return false;
     for (std::size_t i = steps.size() - static_cast<std::size_t>(edits - tile.revision); i < steps.size(); ++i) {
-        revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change);
+        render::revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change, watched);
     }
     if (tile.unsettled || tile.nodes.empty()) ++revised, tile.changed = clock;
-    settle(tile, *world, level_of_stage);
     tile.revision = edits;
+    return true;
 }
 
 bool Session::State::catch_up(const Deadline& deadline) {
     ++clock;
-    if (steps.empty()) return true;
-    std::atomic<bool> all = true;
-    pool.for_each(tiles.size(), [&](std::size_t i) {
-        if (tiles[i].revision == edits) return;
-        if (deadline.passed()) all = false;
-        else catch_up(tiles[i]);
+    if (settled) return true;
+    std::vector<std::uint32_t> order(tiles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return distance(tiles[a], attended) < distance(tiles[b], attended); });
+    const auto for_all = [&](auto&& work) {
+        std::atomic<bool> all = true;
+        pool.for_each(tiles.size(), [&](std::size_t i) {
+            if (deadline.passed()) all = false;
+            else work(tiles[order[i]]);
+        });
+        return all.load();
+    };
+    const auto settle = [&](Tile& tile) {
+        if (tile.unsettled) tile.changed = clock;
+        render::settle(tile, *world, level_of_stage);
+    };
+    const bool watched = !deadline.is_never();
+    const bool known = for_all([&](Tile& tile) {
+        if (revise(tile, watched) && watched) preview(tile, *world, level_of_stage);
+        if (!watched) settle(tile);
     });
-    if (all) steps.clear();
-    return all;
+    if (known) steps.clear();
+    settled = known && (!watched || for_all(settle));
+    return settled;
 }
 
 void Session::State::cut_tiles() {
@@ -198,7 +216,7 @@ std::vector<TileState> Session::State::tile_states() const {
     const int last = static_cast<int>(stages.size()) - 1;
     for (const Tile& tile : tiles) {
         TileState& state = states.emplace_back(TileState{tile.stage, tile.shown_stage(), tile.bytes(), tile.going_on, distance(tile, attended)});
-        if (tile.revision != edits) state.stage = std::min(state.stage, last), state.shown_stage = std::clamp(state.shown_stage, 0, last);  // never done
+        if (tile.revision != edits || tile.unsettled) state.stage = std::min(state.stage, last), state.shown_stage = std::clamp(state.shown_stage, 0, last);  // never done
     }
     return states;
 }
@@ -326,9 +344,11 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     report.began_anew = change.anew;
     if (settings.width != s.width() || settings.height != s.height() || settings.tile != s.tile_size()) {
         s.steps.clear();
+        s.settled = true;
         s.cut_tiles();
     } else if (change.touches_trees()) {
         ++s.edits;
+        s.settled = false;
         old->accelerator.reset();
         s.steps.push_back({std::move(old), std::move(change)});
     }
