@@ -11,6 +11,8 @@ using scene::MaterialId;
 using scene::NodeId;
 using scene::ShapeId;
 
+constexpr double metre = 0.001;  // of the file's millimetres
+
 class SceneMaker {
 public:
     SceneMaker(const CadModel& model, std::vector<UntraceableFace>& untraceable) : model_(model), untraceable_(untraceable) {}
@@ -23,7 +25,7 @@ public:
         for (std::uint32_t part = 0; part < model_.parts.size(); ++part) add_shapes(part);
         scene().nodes.resize(model_.nodes.size());
         for (std::uint32_t node = 0; node < model_.nodes.size(); ++node) fill_node(node);
-        add_top();
+        add_roots();
         return std::move(loaded_);
     }
 
@@ -48,45 +50,55 @@ private:
         shown_.push_back(shown);
     }
 
-    // A node shows one shape: the triangles of a part that also has faces get a node below.
+    // A node shows one shape: the triangles of a part that also has faces get a node below. The spaces of assemblies are those of the scene, y up and in
+    // metres, so that edits may speak of them; only the shapes themselves are in the file's millimetres, z up.
     void fill_node(std::uint32_t which) {
         const CadNode& from = model_.nodes[which];
         scene::Node node;
         node.name = from.name;
-        node.transform = from.transform;
+        node.transform = turn() * from.transform * math::inverse(turn());
+        node.transform.origin *= metre;
         for (const std::uint32_t child : from.children) node.children.push_back({child});
         if (from.part < shown_.size()) {
-            const Shown& shown = shown_[from.part];
-            for (const std::uint32_t color : from.colors) node.materials.push_back(color == CadPart::no_color ? uncolored() : MaterialId{color});
-            node.shape = shown.faces.valid() ? shown.faces : shown.mesh;
-            if (shown.faces.valid() && shown.mesh.valid()) {
-                scene::Node triangles;
-                triangles.name = from.name + " (triangles)";
-                triangles.shape = shown.mesh;
-                triangles.materials = node.materials;
-                node.children.push_back({static_cast<std::uint32_t>(scene().nodes.size())});
-                scene().nodes.push_back(std::move(triangles));
-            }
+            if (from.children.empty()) show(from, node);
+            else show_below(from, node);
         }
         scene().nodes[which] = std::move(node);
     }
 
-    // Turns z up to y up, and millimetres to metres. A single root is turned itself.
-    void add_top() {
-        constexpr double metre = 0.001;
-        const math::Affine to_scene{{metre, 0, 0}, {0, 0, -metre}, {0, metre, 0}, {}};
-        if (model_.roots.size() == 1) {
-            scene::Node& root = scene().nodes[model_.roots[0]];
-            root.transform = to_scene * root.transform;
-            scene().name = root.name;
-            scene().roots = {{model_.roots[0]}};
-            return;
+    void show(const CadNode& from, scene::Node& node) {
+        const Shown& shown = shown_[from.part];
+        node.transform = node.transform * to_scene();
+        for (const std::uint32_t color : from.colors) node.materials.push_back(color == CadPart::no_color ? uncolored() : MaterialId{color});
+        node.shape = shown.faces.valid() ? shown.faces : shown.mesh;
+        if (shown.faces.valid() && shown.mesh.valid()) {
+            scene::Node triangles;
+            triangles.name = from.name + " (triangles)";
+            triangles.shape = shown.mesh;
+            triangles.materials = node.materials;
+            add_below(node, std::move(triangles));
         }
-        scene::Node top;
-        top.transform = to_scene;
-        for (const std::uint32_t root : model_.roots) top.children.push_back({root});
-        scene().roots = {{static_cast<std::uint32_t>(scene().nodes.size())}};
-        scene().nodes.push_back(std::move(top));
+    }
+
+    // Of a part that is also an assembly.
+    void show_below(const CadNode& from, scene::Node& node) {
+        scene::Node part;
+        part.name = from.name;
+        show(from, part);
+        add_below(node, std::move(part));
+    }
+
+    void add_below(scene::Node& node, scene::Node child) {
+        node.children.push_back({static_cast<std::uint32_t>(scene().nodes.size())});
+        scene().nodes.push_back(std::move(child));
+    }
+
+    static math::Affine turn() { return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}}; }  // z up to y up
+    static math::Affine to_scene() { return math::Affine::scaling({metre, metre, metre}) * turn(); }
+
+    void add_roots() {
+        for (const std::uint32_t root : model_.roots) scene().roots.push_back({root});
+        if (model_.roots.size() == 1) scene().name = scene().nodes[model_.roots[0]].name;
     }
 
     MaterialId uncolored() {

@@ -31,4 +31,22 @@ geometry::Ray CameraRays::through(double x, double y) const {
     return ray;
 }
 
+CameraRays::Projected CameraRays::at(Vec3 across, double depth) const {
+    const double sx = dot(across, right_) / dot(right_, right_), sy = dot(across, up_) / dot(up_, up_);
+    return {(sx + 1) * width_ / 2, (1 - sy) * height_ / 2, depth};
+}
+
+std::optional<CameraRays::Projected> CameraRays::project(Vec3 point) const {
+    const Vec3 way = point - position_;
+    const double depth = dot(way, forward_);
+    if (!(depth > (orthographic_ ? near_ : std::max(near_, 0.0)))) return {};
+    return at(orthographic_ ? way : way / depth, depth);
+}
+
+std::optional<CameraRays::Projected> CameraRays::project_direction(Vec3 direction) const {
+    const double depth = dot(direction, forward_);
+    if (orthographic_ || !(depth > 0)) return {};
+    return at(direction / depth, depth);
+}
+
 }  // namespace crescente::render

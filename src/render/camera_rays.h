@@ -1,6 +1,8 @@
 // Rays from the viewer through points of the picture.
 #pragma once
 
+#include <optional>
+
 #include "geometry/ray.h"
 #include "scene/camera.h"
 
@@ -15,6 +17,14 @@ public:
     // Through the point (x, y), in pixels from the top left corner; the direction has unit length, t_min is the near plane.
     geometry::Ray through(double x, double y) const;
 
+    // Where a point, or a direction, is in the picture, in pixels from the top left corner, and how far along the view direction; nothing if it is not in front
+    // of the viewer's near plane. Seen in parallel, no direction has a place.
+    struct Projected {
+        double x, y, depth;
+    };
+    std::optional<Projected> project(Vec3 point) const;
+    std::optional<Projected> project_direction(Vec3 direction) const;
+
     // A place of the viewer from which a camera ray comes to the point.
     Vec3 viewer_of(Vec3 point) const { return orthographic_ ? point - forward_ : position_; }
 
@@ -24,6 +34,8 @@ public:
     int height() const { return height_; }
 
 private:
+    Projected at(Vec3 across, double depth) const;
+
     Vec3 position_, forward_, right_, up_;  // right and up span the half picture at distance 1 (or at the plane, orthographic)
     bool orthographic_;
     double near_;

@@ -71,13 +71,19 @@ std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance,
     return pixels;
 }
 
+// Whether a pixel is shown as it was made up after an edit, until its trees are further.
+bool is_previewed(const Tile& tile, const std::array<std::uint32_t, 4>& corners) {
+    return tile.stage < tile.previewed_until && !tile.pixels.empty() && std::any_of(corners.begin(), corners.end(), [&](std::uint32_t root) { return root < tile.kept || root == no_node; });
+}
+
+std::array<std::uint32_t, 4> corners_of(const Tile& tile, int x, int y) { return {tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)}; }
+
 }  // namespace
 
 std::vector<Rgb> develop(const Tile& tile) {
     if (tile.shows_pixels()) return tile.pixels;
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
     const bool edited = !tile.pixels.empty();  // what is not known anew is still shown as it was
-    const bool previewed = edited && tile.stage < tile.previewed_until;
     const std::vector<Quad>& quads = tile.quads_before.empty() ? tile.quads : tile.quads_before;
     const int step = !quads.empty() || (edited && !tile.corners.empty()) ? 1 : whole_grid(tile);
     if (step == 0) return edited ? tile.pixels : std::vector<Rgb>(count);
@@ -87,9 +93,8 @@ std::vector<Rgb> develop(const Tile& tile) {
     pixels.reserve(count);
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
-            const std::array corners{tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)};
-            const bool old = previewed && std::any_of(corners.begin(), corners.end(), [&](std::uint32_t root) { return root < tile.kept; });
-            const auto pixel = old ? std::nullopt : quads.empty() ? mean_of(radiance, corners) : mean_of(quads, radiance, quads[pixels.size()]);
+            const auto corners = corners_of(tile, x, y);
+            const auto pixel = is_previewed(tile, corners) ? std::nullopt : quads.empty() ? mean_of(radiance, corners) : mean_of(quads, radiance, quads[pixels.size()]);
             pixels.push_back(pixel ? *pixel : edited ? tile.pixels[pixels.size()] : Rgb{});
         }
     }
@@ -159,14 +164,16 @@ void expose(const Tile& tile, const World& world, std::span<const scene::Level> 
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
             const std::uint32_t root = tile.corner(x, y);
-            if (root == no_node) continue;
             const std::size_t pixel = static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0 + x;
+            const bool previewed = is_previewed(tile, corners_of(tile, x, y));
+            if (previewed) image.layers[8].values[pixel] = -1;
+            if (root == no_node) continue;
             const auto set = [&](std::size_t layer, std::initializer_list<double> values) {
                 std::size_t k = pixel * values.size();
                 for (const double v : values) image.layers[layer].values[k++] = static_cast<float>(v);
             };
             const Node& node = tile.nodes[root];
-            set(8, {level});
+            if (!previewed) set(8, {level});
             set(9, {double(tile.quads.empty() ? 1u : samples_in(tile, tile.quads[static_cast<std::size_t>(y) * tile.width + x]))});
             // What the rays that go on from there together weigh in the pixel.
             Rgb left;

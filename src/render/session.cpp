@@ -11,7 +11,9 @@
 #include "render/describe.h"
 #include "render/film.h"
 #include "render/level.h"
+#include "render/level_visible.h"
 #include "render/preview.h"
+#include "render/reprojection.h"
 #include "render/revision.h"
 #include "render/scheduler.h"
 #include "scene/hierarchy.h"
@@ -45,6 +47,7 @@ struct Session::State {
     bool settled = true;                         // no tile waits for revision or settling
     std::atomic<std::uint64_t> revised = 0;      // times that an edit touched a tile
     std::uint64_t clock = 0;                     // ticks when tiles may change
+    std::vector<SeenPoint> seen;                 // by pixel, from the last camera whose picture had all its corners; until the present one's has
     Area attended;                               // where the user looks
     RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
     TestCounts past_tests;
@@ -56,6 +59,7 @@ struct Session::State {
 
     void plan_stages();
     void cut_tiles();
+    void move_camera(const World& before);  // the tiles begin anew; until there is more they show the old picture as the camera now sees it
     bool revise(Tile& tile, bool watched);    // whether there was an edit that it did not know
     bool catch_up(const Deadline& deadline);  // all tiles; whether there was time for it
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
@@ -150,6 +154,43 @@ void Session::State::cut_tiles() {
     }
 }
 
+void Session::State::move_camera(const World& before) {
+    const auto shadows = std::find(level_of_stage.begin(), level_of_stage.end(), scene::Level::shadows) - level_of_stage.begin();
+    const int complete = static_cast<int>(visible_stages(world->scene.settings).size());
+    const auto has_corners = [&](const Tile& tile) { return tile.stage >= complete; };
+    if (seen.empty() || std::all_of(tiles.begin(), tiles.end(), has_corners)) {
+        seen.assign(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()), {});
+        pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], before.environment.backdrop, width(), seen); });
+    }
+    const Reprojected picture = reproject(seen, world->camera, width(), height(), pool);
+    const bool reuse = world->scene.settings.memory == 0;
+    ++clock;
+    pool.for_each(tiles.size(), [&](std::size_t i) {
+        Tile& tile = tiles[i];
+        Tile fresh = blank_tile(tile);
+        fresh.rays = tile.rays, fresh.tests = tile.tests;
+        fresh.revision = edits, fresh.changed = clock;
+        std::size_t holes = 0;
+        for (int y = tile.y0; y < tile.y0 + tile.height; ++y) {
+            const auto first = static_cast<std::ptrdiff_t>(y) * width() + tile.x0;
+            fresh.pixels.insert(fresh.pixels.end(), picture.pixels.begin() + first, picture.pixels.begin() + first + tile.width);
+            holes += static_cast<std::size_t>(std::count(picture.seen.begin() + first, picture.seen.begin() + first + tile.width, 0));
+        }
+        constexpr std::size_t few = 4;  // with more of it guessed the coarse picture is the better one
+        if (holes * few < fresh.pixels.size()) {
+            fresh.previewed_until = std::min(static_cast<int>(shadows) + 1, static_cast<int>(level_of_stage.size()));
+            fresh.kept = no_node;
+        }
+        if (reuse) {  // the memory
+            tile.nodes.clear(), tile.shares.clear();
+            fresh.nodes = std::move(tile.nodes), fresh.shares = std::move(tile.shares);
+        }
+        tile = std::move(fresh);
+    });
+    steps.clear();
+    settled = true;
+}
+
 bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadline) const {
     const bool unseen = until > tile.stage + 1 && level_of_stage[static_cast<std::size_t>(until - 1)] > scene::Level::visible;
     if (unseen && tile.stage > 0 && !tile.shows_pixels()) {
@@ -161,7 +202,7 @@ bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadlin
         const Stage& stage = stages[static_cast<std::size_t>(tile.stage)];
         if (!kind_of(stage.level).advance(growth, stage, deadline)) return false;
         tile.cursor = 0;
-        if (++tile.stage == 1 && !tile.shows_pixels()) tile.pixels = {};  // of before an edit that left no tree
+        if (++tile.stage == 1 && !tile.shows_pixels() && tile.previewed_until == 0) tile.pixels = {};  // of before an edit that left no tree
         if (tile.stage < until && deadline.passed()) return false;
     }
     return true;
@@ -311,6 +352,8 @@ Progress Session::advance(const Deadline& deadline) {
         }
         if (deadline.passed()) break;
     }
+    const int corners = static_cast<int>(visible_stages(s.world->scene.settings).size());
+    if (std::all_of(states.begin(), states.end(), [&](const TileState& state) { return state.shown_stage >= corners; })) s.seen = {};
     s.render_seconds += std::chrono::duration<double>(Clock::now() - start).count();
     return s.progress(states);
 }
@@ -346,6 +389,9 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
         s.steps.clear();
         s.settled = true;
         s.cut_tiles();
+    } else if (s.world->camera != old->camera) {
+        ++s.edits;
+        s.move_camera(*old);
     } else if (change.touches_trees()) {
         ++s.edits;
         s.settled = false;

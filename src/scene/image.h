@@ -10,7 +10,7 @@ namespace crescente::scene {
 // One layer: channels of float, row by row from the top left, channels interleaved.
 struct Layer {
     std::string name;                   // "color", "depth", "position", "normal", "albedo", "object", "material", "influence",
-                                        // "level", "samples"
+                                        // "level" (that a pixel has reached; -1: a preview after an edit), "samples"
     std::vector<std::string> channels;  // "R", "G", "B", "Z", "X", ...
     std::vector<float> values;          // width x height x channels
 };

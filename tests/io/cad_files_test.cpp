@@ -9,8 +9,10 @@
 #include <unistd.h>
 
 #include "io/cad_reader.h"
+#include "io/cad_scene.h"
 #include "io/module_file.h"
 #include "reader_check.h"
+#include "scene/hierarchy.h"
 
 namespace crescente::io {
 namespace {
@@ -116,6 +118,30 @@ TEST(CadFiles, AssembliesShareTheirParts) {
     EXPECT_EQ(one.children, other.children);
     EXPECT_FALSE(one.transform == other.transform);
     EXPECT_EQ(model->colors.size(), 5u);
+}
+
+// So that an edit which moves a part of an assembly may speak of metres, y up.
+TEST(CadFiles, AssembliesAreInTheScenesSpace) {
+    REQUIRE_OPENCASCADE();
+    REQUIRE_ASSET("cad/02_as1_pe_203.stp");
+    const auto model = read_cad_model(asset("cad/02_as1_pe_203.stp"), without_cache());
+    ASSERT_TRUE(model);
+    std::vector<UntraceableFace> untraceable;
+    const scene::Scene scene = cad_scene(*model, untraceable).scene;
+    std::size_t assemblies = 0;
+    for (const scene::Node& node : scene.nodes) {
+        EXPECT_NEAR(std::cbrt(node.transform.determinant()), node.shape.valid() ? 1e-3 : 1, 1e-12) << node.name;
+        if (!node.shape.valid()) ++assemblies;
+    }
+    EXPECT_GT(assemblies, 3u);
+    // What is seen is where the file has it.
+    math::Bounds seen, expected;
+    scene::for_each_appearance(scene, [&](std::uint32_t node, const math::Affine& to_world, const auto&) {
+        const math::Bounds box = math::transform(to_world, geometry::bounds(scene.shapes[scene.nodes[node].shape.value].shape));
+        seen.include(box);
+    });
+    expected.lower = {-3.81002, -1.90502, -1.52401}, expected.upper = {1.27002, 1.90502, 0.685805};
+    EXPECT_LT(length(seen.lower - expected.lower) + length(seen.upper - expected.upper), 1e-3);
 }
 
 TEST(CadFiles, ColorsOfFacesAndPartsComeIn) {

@@ -57,17 +57,17 @@ TEST(Frames, OneOfAnotherSizeIsMadeAnew) {
 // Interrupted after every quantum: the level that each tile has reached.
 TEST(Looking, WorkIsDoneFirstWhereTheUserLooks) {
     scene::Scene scene = balls();
-    scene.settings.threads = 1;
+    scene.settings.width = 384, scene.settings.height = 256, scene.settings.tile = 32;
     Session session = opened(scene);
-    const Area looked_at{64, 16, 16, 16};
+    const Area looked_at{256, 64, 32, 32};
     session.look_at(looked_at);
     bool ahead = false;
     for (int i = 0; i < 100000 && !ahead; ++i) {
-        const Progress progress = session.advance(Deadline::in(std::chrono::nanoseconds(1)));
+        const Progress progress = session.advance(Deadline::in(std::chrono::microseconds(50)));
         ASSERT_FALSE(progress.done) << "the tile that is looked at never was ahead of the others";
         const scene::Image image = session.picture(true);
-        const float here = values(image, "level", 72, 24)[0];
-        const float elsewhere = values(image, "level", 8, 56)[0];
+        const float here = values(image, "level", 270, 80)[0];
+        const float elsewhere = values(image, "level", 32, 224)[0];
         EXPECT_GE(here, elsewhere);
         ahead = here == static_cast<float>(scene.settings.level) && elsewhere == 0;
     }

@@ -158,6 +158,13 @@ inline ::testing::AssertionResult same_picture(const scene::Image& a, const scen
     return ::testing::AssertionSuccess();
 }
 
+// Of the values of the color layer; the pictures have the same size.
+inline double mean_difference(const scene::Image& a, const scene::Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.layers[0].values.size(); ++i) sum += std::abs(double(a.layers[0].values[i]) - double(b.layers[0].values[i]));
+    return sum / static_cast<double>(a.layers[0].values.size());
+}
+
 inline void expect_near(Rgb got, Rgb expected, double tolerance) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], expected[k], tolerance) << "channel " << k;
 }

@@ -1,0 +1,99 @@
+// Camera moves: the new view begins with the old picture as far as it is seen from there.
+#include "render/camera_rays.h"
+#include "render/scenes.h"
+
+namespace crescente::render::testing {
+namespace {
+
+TEST(CameraRays, ProjectUndoesThrough) {
+    Random random(4);
+    for (const auto projection : {scene::Projection::perspective, scene::Projection::orthographic}) {
+        scene::Camera camera;
+        camera.projection = projection, camera.position = {1, 2, 3}, camera.target = {-2, 0.5, -1}, camera.pixel_aspect = 1.25;
+        const CameraRays rays(camera, 160, 90);
+        for (int i = 0; i < 200; ++i) {
+            const double x = random.uniform(-20, 180), y = random.uniform(-20, 110), t = random.uniform(0.1, 50);
+            const geometry::Ray ray = rays.through(x, y);
+            const auto seen = rays.project(ray.origin + ray.direction * t);
+            ASSERT_TRUE(seen);
+            EXPECT_NEAR(seen->x, x, 1e-9);
+            EXPECT_NEAR(seen->y, y, 1e-9);
+            EXPECT_NEAR(seen->depth, t * dot(ray.direction, rays.forward()), 1e-9);
+            EXPECT_FALSE(rays.project(ray.origin - ray.direction * t)) << "behind the viewer";
+            const auto far = rays.project_direction(ray.direction);
+            ASSERT_EQ(bool(far), projection == scene::Projection::perspective);
+            if (far) EXPECT_NEAR(far->x, x, 1e-9);
+            if (far) EXPECT_NEAR(far->y, y, 1e-9);
+        }
+    }
+}
+
+scene::Scene table() {
+    Build s(160, 120);
+    s.settings().tile = 32;
+    s.camera().position = {0, 2, 9}, s.camera().target = {0, 0.6, 0};
+    const MaterialId red = s.material(matte({0.8f, 0.1f, 0.1f})), blue = s.material(matte({0.1f, 0.2f, 0.8f})), grey = s.material(matte({0.5f, 0.5f, 0.5f}));
+    s.place(geometry::Plane{}, grey);
+    s.place(sphere(1), red, at({-1.2, 1, 0}));
+    s.place(box({-0.5, 0, -0.5}, {0.5, 1.4, 0.5}), blue, at({1.3, 0, 0.6}));
+    s.steady_light({3, 6, 9});
+    s.uniform_environment({0.3f, 0.4f, 0.6f}, 1);
+    return s.scene;
+}
+
+scene::Camera moved(const scene::Scene& scene, Vec3 by) {
+    scene::Camera camera = *scene.camera;
+    camera.position = camera.position + by;
+    return camera;
+}
+
+TEST(Reprojection, ASmallMoveIsShownAtOnce) {
+    Session session = finished(table());
+    const scene::Image before = session.picture();
+    ASSERT_TRUE(session.edit({scene::SetCamera{moved(session.scene(), {0.25, 0.1, -0.2})}}));
+    const std::uint64_t rays = session.stats().rays.total();
+    const scene::Image shown = session.picture(), converged = picture_of(session.scene());
+    EXPECT_EQ(session.stats().rays.total(), rays) << "without a ray";
+    EXPECT_LT(mean_difference(shown, converged), 0.6 * mean_difference(before, converged)) << "nearer to the new view than the old picture is";
+    EXPECT_LT(mean_difference(shown, converged), 0.01);
+
+    session.advance(Deadline::never());
+    EXPECT_TRUE(same_picture(finished(session.scene()).picture(true), session.picture(true))) << "nothing of it is in the finished picture";
+}
+
+TEST(Reprojection, TheSameViewKeepsItsPicture) {
+    Session session = finished(table());
+    const scene::Image before = session.picture();
+    const scene::Camera camera = *session.scene().camera;
+    ASSERT_TRUE(session.edit({scene::SetCamera{moved(session.scene(), {0.3, 0, 0})}}));
+    ASSERT_TRUE(session.edit({scene::SetCamera{camera}}));
+    EXPECT_LT(mean_difference(session.picture(), before), 1e-3) << "moves that follow each other start from the last complete picture";
+}
+
+TEST(Reprojection, IsTheSameOnAnyNumberOfThreads) {
+    scene::Image pictures[2];
+    for (const int threads : {1, 3}) {
+        scene::Scene scene = table();
+        scene.settings.threads = threads;
+        Session session = finished(std::move(scene));
+        ASSERT_TRUE(session.edit({scene::SetCamera{moved(session.scene(), {1, 0.4, -3})}}));
+        pictures[threads / 3] = session.picture();
+    }
+    EXPECT_TRUE(same_picture(pictures[0], pictures[1]));
+}
+
+// Until there is something better, the level layer says what is only a preview.
+TEST(Reprojection, IsMarkedAsPreview) {
+    Session session = finished(table());
+    ASSERT_TRUE(session.edit({scene::SetCamera{moved(session.scene(), {0.1, 0, 0})}}));
+    while (!session.advance(Deadline::in(std::chrono::microseconds(50))).first_picture) {}
+    const scene::Image begun = session.picture(true);
+    const auto& level = layer(begun, "level").values;
+    EXPECT_GT(std::count(level.begin(), level.end(), -1.0f), static_cast<std::ptrdiff_t>(level.size() / 2));
+    session.advance(Deadline::never());
+    const scene::Image done = session.picture(true);
+    EXPECT_EQ(std::count(layer(done, "level").values.begin(), layer(done, "level").values.end(), -1.0f), 0);
+}
+
+}  // namespace
+}  // namespace crescente::render::testing
