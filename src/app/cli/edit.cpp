@@ -9,7 +9,7 @@
 #include "app/cli/picture_options.h"
 #include "app/cli/progress.h"
 #include "app/cli/stop.h"
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/content_hash.h"
 #include "io/text_file.h"
 
@@ -27,7 +27,7 @@ struct EditOptions {
 Expected<void> check_outputs(const EditOptions& options, const std::vector<io::ScriptLine>& lines) {
     OutputCheck check;
     for (const std::string& output : options.picture.outputs) check.add(io::can_write(output));
-    if (!options.report_file.empty()) check.add(io::can_write_file(options.report_file));
+    if (!options.report_file.empty()) check.add(can_write_file(options.report_file));
     for (const io::ScriptLine& line : lines) {
         const auto* picture = std::get_if<io::SavePicture>(&line.step);
         if (!picture) continue;
@@ -148,7 +148,7 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     if (const auto written = write_pictures(*session, options.picture.outputs, options.picture, invocation); !written) return fail(written.error());
     if (!options.report_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-        if (const auto written = io::write_atomically(options.report_file, text); !written) return fail(written.error());
+        if (const auto written = write_atomically(options.report_file, text); !written) return fail(written.error());
     }
     std::cout.flush();
     if (!std::cout) return fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});

@@ -17,7 +17,7 @@
 #include "app/cli/scene_options.h"
 #include "app/cli/stats_json.h"
 #include "app/cli/stop.h"
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
 #include "render/session.h"
 
 namespace crescente::app {
@@ -93,7 +93,7 @@ Expected<Request> understand(const RenderOptions& options) {
 Expected<void> check_outputs(const RenderOptions& options) {
     OutputCheck check;
     for (const std::string& output : options.picture.outputs) check.add(io::can_write(output));
-    if (!options.stats_file.empty()) check.add(io::can_write_file(options.stats_file));
+    if (!options.stats_file.empty()) check.add(can_write_file(options.stats_file));
     return check.result();
 }
 
@@ -215,7 +215,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     report["time"]["cpu"] = times.cpu;
     if (!options.stats_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-        if (const auto written = io::write_atomically(options.stats_file, text); !written) return fail(written.error());
+        if (const auto written = write_atomically(options.stats_file, text); !written) return fail(written.error());
     }
 
     if (!options.quiet) {
