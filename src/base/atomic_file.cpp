@@ -54,23 +54,36 @@ Expected<void> can_write_file(const fs::path& file) {
     return {};
 }
 
-AtomicFile::AtomicFile(const fs::path& file) : file_(file), destination_(destination_of(file)) {
+// Tries names beside the destination until one is not taken, or something else is in the way.
+template <class Take>
+void AtomicFile::with_free_name(Take take) const {
     static std::atomic<unsigned> counter{0};  // only makes names differ
     constexpr int tries = 100;
-    for (int i = 0; i < tries && descriptor_ < 0; ++i) {
-        path_ = folder_of(destination_) / (".crescente-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ".part");
-        descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0 && errno != EEXIST) break;
+    for (int i = 0; i < tries; ++i) {
+        if (take(folder_of(destination_) / (".crescente-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ".part")) || errno != EEXIST) return;
     }
 }
 
+AtomicFile::AtomicFile(const fs::path& file) : file_(file), destination_(destination_of(file)) {
+    // Without a name, where the system can do that: nothing is left of it then even if the program is killed.
+    if (access("/proc/self/fd", X_OK) == 0) descriptor_ = open(folder_of(destination_).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    nameless_ = descriptor_ >= 0;
+    if (nameless_) return;
+    with_free_name([&](const fs::path& path) {
+        path_ = path;
+        descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        return descriptor_ >= 0;
+    });
+}
+
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : file_(std::move(other.file_)), destination_(std::move(other.destination_)), path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : file_(std::move(other.file_)), destination_(std::move(other.destination_)), path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)),
+      nameless_(other.nameless_) {}
 
 AtomicFile::~AtomicFile() {
     if (descriptor_ < 0) return;
     close(descriptor_);
-    unlink(path_.c_str());
+    if (!nameless_) unlink(path_.c_str());
 }
 
 Expected<AtomicFile> AtomicFile::beside(const fs::path& file) {
@@ -93,6 +106,15 @@ Expected<void> AtomicFile::write(std::string_view content) {
 Expected<void> AtomicFile::put() {
     if (struct stat old {}; stat(destination_.c_str(), &old) == 0) (void)fchmod(descriptor_, old.st_mode & 07777);
     if (fsync(descriptor_) != 0) return cannot_write(file_, reason_of(errno));
+    if (nameless_) {
+        const std::string open_file = "/proc/self/fd/" + std::to_string(descriptor_);
+        with_free_name([&](const fs::path& path) {
+            path_ = path;
+            nameless_ = linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) != 0;
+            return !nameless_;
+        });
+        if (nameless_) return cannot_write(file_, reason_of(errno));
+    }
     if (rename(path_.c_str(), destination_.c_str()) != 0) return cannot_write(file_, reason_of(errno));
     close(std::exchange(descriptor_, -1));
     return {};

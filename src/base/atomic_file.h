@@ -28,9 +28,12 @@ public:
 
 private:
     explicit AtomicFile(const std::filesystem::path& file);
+    template <class Take>
+    void with_free_name(Take take) const;
 
-    std::filesystem::path file_, destination_, path_;  // as the user gave it, the end of links, beside it
+    std::filesystem::path file_, destination_, path_;  // as the user gave it, the end of links, the name beside it
     int descriptor_ = -1;
+    bool nameless_ = false;  // without a name so far
 };
 
 // The same for content that is at hand.

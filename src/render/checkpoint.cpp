@@ -103,14 +103,16 @@ public:
         if (code) return reader.wrong("", "cannot be read: " + code.message());
         std::string begin(std::min<std::uint64_t>(mark.size(), reader.left_), '\0');
         if (!reader.read(begin) || begin != mark) return reader.wrong("", "this is no checkpoint of Crescente");
+        return reader;
+    }
+
+    Expected<void> check_version() {
         std::uint32_t version = 0;
         std::string number(sizeof version, '\0');
-        if (!reader.read(number)) return reader.wrong("the beginning", "is damaged: the file ends too early");
+        if (!read(number)) return wrong("the beginning", "is damaged: the file ends too early");
         std::memcpy(&version, number.data(), sizeof version);
-        if (version != checkpoint_version) {
-            return reader.wrong("", "is a checkpoint of version " + std::to_string(version) + ", this program reads version " + std::to_string(checkpoint_version));
-        }
-        return reader;
+        if (version == checkpoint_version) return {};
+        return wrong("", "is a checkpoint of version " + std::to_string(version) + ", this program reads version " + std::to_string(checkpoint_version));
     }
 
     Expected<std::string> section(std::uint64_t number, const std::string& place, std::uint64_t longest) {
@@ -145,6 +147,7 @@ private:
 };
 
 Expected<CheckpointHead> read_head(SectionReader& reader) {
+    if (const auto version = reader.check_version(); !version) return tl::unexpected(version.error());
     const auto bytes = reader.section(head_section, "the head", longest_head);
     if (!bytes) return tl::unexpected(bytes.error());
     CheckpointHead head;
@@ -180,7 +183,7 @@ Expected<Checkpoint> read_all(const fs::path& file, const World& world) {
     auto head = read_head(*reader);
     if (!head) return tl::unexpected(head.error());
     if (const std::string others = other_parts(head->scene, fingerprint_of(world.scene)); !others.empty()) {
-        return reader->wrong("", "is of another scene: its " + others + " are not those of this one");
+        return reader->wrong("", "is of another scene: it differs in " + others);
     }
     const scene::Settings& now = world.scene.settings;
     if (picture_text(head->settings) != picture_text(now)) return reader->wrong("", "is of a picture of " + picture_text(head->settings) + ", not of " + picture_text(now));
@@ -246,6 +249,8 @@ Expected<std::uint64_t> write_checkpoint(const fs::path& file, const World& worl
         return no_memory(file, "cannot be written: not enough memory");
     }
 }
+
+bool is_checkpoint(const fs::path& file) { return SectionReader::open(file).has_value(); }
 
 Expected<CheckpointHead> read_checkpoint_head(const fs::path& file) {
     try {

@@ -47,6 +47,9 @@ void copy_tree_settings(const scene::Settings& from, scene::Settings& to);
 Expected<std::uint64_t> write_checkpoint(const std::filesystem::path& file, const World& world, const std::string& note, const SessionCounts& counts,
                                          std::vector<Tile>& tiles);
 
+// Whether there is such a file and it begins as checkpoints do, of whatever version and however damaged.
+bool is_checkpoint(const std::filesystem::path& file);
+
 // The file may be hostile. Errors: input (missing, no checkpoint, damaged, of another version), resource (memory).
 Expected<CheckpointHead> read_checkpoint_head(const std::filesystem::path& file);
 
