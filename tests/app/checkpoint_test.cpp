@@ -42,8 +42,10 @@ TEST_F(Checkpoint, AKilledRenderEndsInThePictureOfAnUninterruptedOne) {
     ASSERT_EQ(render("whole.png", {"--stats", path("whole.json")}).code, 0);
     kill_a_render();
     const int nameless = open(folder.c_str(), O_WRONLY | O_TMPFILE, 0600);
-    if (nameless >= 0) EXPECT_EQ(files(), (std::vector<std::string>{"c", "whole.json", "whole.png"})) << "half a checkpoint is left behind";
-    close(nameless);
+    if (nameless >= 0) {
+        EXPECT_EQ(files(), (std::vector<std::string>{"c", "whole.json", "whole.png"})) << "half a checkpoint is left behind";
+        close(nameless);
+    }
     const Outcome outcome = render("resumed.png", {"--checkpoint", path("c"), "--resume", "--stats", path("resumed.json")});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(pixels("resumed.png"), pixels("whole.png"));
@@ -127,6 +129,70 @@ TEST_F(Checkpoint, AFullDiskDoesNotEndTheRender) {
     EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
     EXPECT_EQ(read(path("c")), old);
     EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "c", "first.png", "whole.png"}));
+}
+
+// --- Scripts of edits
+
+const std::string primitives = (scenes / "primitives.json").string();
+
+class ScriptCheckpoint : public Checkpoint {
+protected:
+    std::vector<std::string> script_arguments(const std::string& script, std::vector<std::string> more) const {
+        std::vector<std::string> all{"edit", primitives, write("script.jsonl", script), "--size", "96x64", "--quiet"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    Outcome play(const std::string& script, std::vector<std::string> more) const { return crescente(script_arguments(script, std::move(more))); }
+};
+
+const std::string first_lines = R"({"set": {"settings.contrast": 0.05}}
+{"add": {"name": "extra", "shape": {"sphere": {"radius": 0.4}}, "transform": {"translate": [0, 1, 0]}}}
+{"move": {"object": "extra", "by": {"translate": [0.3, 0, 0]}}}
+{"move": {"object": "extra", "by": {"translate": [0, 0.5, 0]}}}
+)";
+const std::string last_lines = R"({"undo": 1}
+{"set": {"camera.field_of_view": 35}}
+{"undo": 1}
+{"redo": 1}
+)";
+
+TEST_F(ScriptCheckpoint, AFailedScriptIsMendedAndGoesOn) {
+    ASSERT_EQ(play(first_lines + last_lines, {"-o", path("whole.png")}).code, 0);
+    Outcome outcome = play(first_lines + "{\"hide\": \"nobody\"}\n" + last_lines, {"-o", path("a.png"), "--checkpoint", path("c")});
+    EXPECT_EQ(outcome.code, 3);
+    outcome = play(first_lines + last_lines, {"-o", path("a.png"), "--checkpoint", path("c"), "--resume", "--check", "--json", path("report.json")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
+    const Json report = Json::parse(read(path("report.json")));
+    EXPECT_EQ(report["checkpoint"]["played_before"], 4);
+    EXPECT_EQ(report["edits"].size(), 4u);
+    EXPECT_GT(report["fresh"]["rays"]["total"], 0);
+    EXPECT_LT(report["fresh"]["rays"]["total"], report["checkpoint"]["rays_before"]["total"]);
+
+    outcome = play(last_lines + first_lines, {"--checkpoint", path("c"), "--resume"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(contains(outcome.err, "c: is of another script: the lines of " + path("script.jsonl") + " up to 8 are not those that had been played"));
+    outcome = play(first_lines + last_lines, {"--checkpoint", path("c"), "--resume", "--set", "camera.pixel_aspect=1.5"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(contains(outcome.err, "is of another scene: it differs in camera")) << outcome.err;
+    outcome = play(first_lines + last_lines, {"--checkpoint", path("c"), "--resume", "--fresh", "--set", "camera.pixel_aspect=1.5", "--check"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "begins afresh"));
+}
+
+TEST_F(ScriptCheckpoint, AKilledScriptEndsInThePictureOfAnUninterruptedOne) {
+    std::string script = first_lines;
+    for (int i = 0; i < 40; ++i) script += "{\"move\": {\"object\": \"extra\", \"by\": {\"translate\": [" + std::to_string(0.01 * i) + ", 0, 0.01]}}}\n";
+    script += last_lines;
+    ASSERT_EQ(play(script, {"-o", path("whole.png")}).code, 0);
+    Running running(command(script_arguments(script, {"--checkpoint", path("c"), "--checkpoint-every", "0s", "--threads", "1"})), {});
+    const auto begun = [&] { return fs::exists(path("c")) && read(path("c")).find("\"fresh\"") != std::string::npos; };
+    while (!begun()) usleep(1000);
+    running.send(SIGKILL);
+    ASSERT_EQ(running.finish().code, 128 + SIGKILL);
+    const Outcome outcome = play(script, {"-o", path("a.png"), "--checkpoint", path("c"), "--resume", "--check"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
 }
 
 TEST_F(Checkpoint, OptionsThatNeedAFileSaySo) {

@@ -6,7 +6,6 @@
 #include "app/cli/report.h"
 #include "app/cli/stats_json.h"
 #include "base/atomic_file.h"
-#include "render/checkpoint.h"
 
 namespace crescente::app {
 
@@ -50,40 +49,49 @@ Expected<void> check(const CheckpointRequest& request) {
     return render::read_checkpoint_head(request.file).map([](const render::CheckpointHead&) {});
 }
 
+Expected<void> Checkpoints::refuse(Error error) {
+    if (!request_.fresh) {
+        for (Problem& problem : error.problems) {
+            if (problem.hint.empty()) problem.hint = "--resume --fresh begins afresh and replaces it";
+        }
+        return tl::unexpected(std::move(error));
+    }
+    warn(error.problems);
+    note("begins afresh: " + request_.file + " will be replaced");
+    request_.resume = false;
+    return {};
+}
+
+Expected<std::optional<render::CheckpointHead>> Checkpoints::head() {
+    if (!request_.resume || (request_.fresh && !std::filesystem::exists(request_.file))) return std::nullopt;
+    auto head = render::read_checkpoint_head(request_.file);
+    if (head) return std::move(*head);
+    return refuse(std::move(head.error())).map([] { return std::optional<render::CheckpointHead>(); });
+}
+
 Expected<void> Checkpoints::begin(render::Session& session) {
     last_ = Clock::now();
     if (!request_.resume || (request_.fresh && !std::filesystem::exists(request_.file))) return {};
-    auto restored = session.restore(request_.file);
-    if (!restored && request_.fresh) {
-        warn(restored.error().problems);
-        note("begins afresh: " + request_.file + " will be replaced");
-        return {};
-    }
-    if (!restored) {
-        for (Problem& problem : restored.error().problems) {
-            if (problem.hint.empty()) problem.hint = "--resume --fresh begins afresh and replaces it";
-        }
-        return restored;
-    }
+    if (auto restored = session.restore(request_.file); !restored) return refuse(std::move(restored.error()));
     resumed_ = true;
     rays_before_ = session.stats().rays;
     last_ = Clock::now();
     return {};
 }
 
-void Checkpoints::look(render::Session& session) {
+void Checkpoints::look(render::Session& session, const std::string& note) {
     if (!wanted() || Clock::now() - last_ < request_.every) return;
-    if (const auto saved = save(session); !saved) warn(saved.error().problems);
+    if (const auto saved = save(session, note); !saved) warn(saved.error().problems);
 }
 
-Expected<void> Checkpoints::end(render::Session& session) {
+Expected<void> Checkpoints::end(render::Session& session, const std::string& note) {
     if (!wanted()) return {};
-    return save(session);
+    return save(session, note);
 }
 
-Expected<void> Checkpoints::save(render::Session& session) {
+Expected<void> Checkpoints::save(render::Session& session, const std::string& note) {
     const auto start = Clock::now();
-    const auto size = session.save(request_.file);
+    const auto size = session.save(request_.file, note);
     last_ = Clock::now();
     if (!size) return tl::unexpected(size.error());
     ++saved_;

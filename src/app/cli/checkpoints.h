@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "render/checkpoint.h"
 #include "render/session.h"
 
 namespace crescente::app {
@@ -41,23 +42,32 @@ class Checkpoints {
 public:
     explicit Checkpoints(CheckpointRequest request) : request_(std::move(request)) {}
 
+    // The head of the file that is to be gone on from; nothing if the render begins afresh. Errors: as of begin().
+    Expected<std::optional<render::CheckpointHead>> head();
+
     // Takes the forest of the file into the session, if that was asked for. A file that does not fit is an error, or a warning where the user allows to
     // begin afresh.
     Expected<void> begin(render::Session& session);
 
+    // What keeps a render from going on: an error, with what to do about it, or, where the user allows to begin afresh, a warning.
+    Expected<void> refuse(Error error);
+
     // Saves if it is time to. What fails is told; the last checkpoint stays, and the next is tried when its time comes.
-    void look(render::Session& session);
+    // `note`: as of Session::save.
+    void look(render::Session& session, const std::string& note = {});
 
     // Saves what there is at the end, complete or not.
-    Expected<void> end(render::Session& session);
+    Expected<void> end(render::Session& session, const std::string& note = {});
 
     bool wanted() const { return !request_.file.empty(); }
+    const std::string& file() const { return request_.file; }
+    bool resumed() const { return resumed_; }
     const render::RayCounts& rays_before() const { return rays_before_; }  // traced by the runs that this one goes on from
     nlohmann::ordered_json json() const;
 
 private:
     using Clock = std::chrono::steady_clock;
-    Expected<void> save(render::Session& session);
+    Expected<void> save(render::Session& session, const std::string& note);
 
     CheckpointRequest request_;
     Clock::time_point last_ = Clock::now();
