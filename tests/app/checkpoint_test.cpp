@@ -71,7 +71,9 @@ TEST_F(Checkpoint, AStoppedRenderIsSavedBeforeItEnds) {
     Running running(command({"render", balls, "-o", path("stopped.png"), "--size", "4000x3000", "--threads", "1", "--checkpoint", path("d")}), {});
     ASSERT_TRUE(running.wait_for_error_text("rendering"));
     running.send(SIGTERM);
-    EXPECT_EQ(running.finish().code, 0);
+    const Outcome stopped = running.finish();
+    EXPECT_EQ(stopped.code, 0);
+    EXPECT_TRUE(contains(stopped.err, "--resume goes on from " + path("d")));
     EXPECT_TRUE(fs::exists(path("d")));
     EXPECT_TRUE(fs::exists(path("stopped.png")));
 }
@@ -165,6 +167,7 @@ TEST_F(ScriptCheckpoint, AFailedScriptIsMendedAndGoesOn) {
     EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
     const Json report = Json::parse(read(path("report.json")));
     EXPECT_EQ(report["checkpoint"]["played_before"], 4);
+    EXPECT_EQ(report["checkpoint"]["saved"], 1);
     EXPECT_EQ(report["edits"].size(), 4u);
     EXPECT_GT(report["fresh"]["rays"]["total"], 0);
     EXPECT_LT(report["fresh"]["rays"]["total"], report["checkpoint"]["rays_before"]["total"]);

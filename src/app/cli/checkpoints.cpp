@@ -70,12 +70,13 @@ Expected<std::optional<render::CheckpointHead>> Checkpoints::head() {
 }
 
 Expected<void> Checkpoints::begin(render::Session& session) {
-    last_ = Clock::now();
+    const auto start = last_ = Clock::now();
     if (!request_.resume || (request_.fresh && !std::filesystem::exists(request_.file))) return {};
     if (auto restored = session.restore(request_.file); !restored) return refuse(std::move(restored.error()));
     resumed_ = true;
     rays_before_ = session.stats().rays;
     last_ = Clock::now();
+    resume_seconds_ = std::chrono::duration<double>(last_ - start).count();
     return {};
 }
 
@@ -96,12 +97,13 @@ Expected<void> Checkpoints::save(render::Session& session, const std::string& no
     if (!size) return tl::unexpected(size.error());
     ++saved_;
     bytes_ = *size;
-    seconds_ += std::chrono::duration<double>(last_ - start).count();
+    save_seconds_ += std::chrono::duration<double>(last_ - start).count();
     return {};
 }
 
 nlohmann::ordered_json Checkpoints::json() const {
-    return {{"file", request_.file}, {"resumed", resumed_}, {"rays_before", rays_json(rays_before_)}, {"saved", saved_}, {"bytes", bytes_}, {"time", seconds_}};
+    return {{"file", request_.file}, {"resumed", resumed_}, {"rays_before", rays_json(rays_before_)}, {"saved", saved_}, {"bytes", bytes_},
+            {"time", {{"save", save_seconds_}, {"resume", resume_seconds_}}}};
 }
 
 }  // namespace crescente::app

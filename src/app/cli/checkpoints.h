@@ -74,7 +74,7 @@ private:
     render::RayCounts rays_before_;
     bool resumed_ = false;
     std::uint64_t saved_ = 0, bytes_ = 0;  // times; of the last one
-    double seconds_ = 0;                   // in which they were written
+    double save_seconds_ = 0, resume_seconds_ = 0;
 };
 
 }  // namespace crescente::app

@@ -108,7 +108,7 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     render::Session& session = begun->session;
     ScriptProgress& progress = begun->progress;
     const auto look = [&] { checkpoints.look(session, note_of(progress, *lines)); };
-    // What is done is kept, however the script ends.
+    // What is done is kept, however early the script ends.
     const auto ended = [&](ExitCode code) {
         const auto saved = checkpoints.end(session, note_of(progress, *lines));
         return saved ? code : fail(saved.error());
@@ -143,6 +143,7 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     }
     player.finish();
     if (stop.asked()) return ended(stopped());
+    const auto saved = checkpoints.end(session, note_of(progress, *lines));
     say(report_sums(edits, fresh));
 
     nlohmann::ordered_json report = {{"version", CRESCENTE_VERSION},
@@ -166,7 +167,7 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
         auto again = render::Session::open(session.scene());
         if (!again) return fail(again.error());
         const auto cost = render_fresh(*again, stop, [] {}, options.quiet);
-        if (!cost) return ended(stopped());
+        if (!cost) return stopped();
         const std::size_t different = different_pixels(session.picture(true), again->picture(true));
         equal = different == 0;
         report["check"] = {{"equal", equal}, {"different_pixels", different}};
@@ -182,7 +183,8 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     std::cout.flush();
     if (!std::cout) return fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
     if (!equal) note("the picture after the edits is not that of a fresh render: please report it, with model and script");
-    return ended(equal ? exit_ok : exit_different);
+    if (!saved) return fail(saved.error());
+    return equal ? exit_ok : exit_different;
 }
 
 }  // namespace

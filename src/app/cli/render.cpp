@@ -233,6 +233,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (!options.quiet) {
         if (ending == Ending::time) note("the time was over before the picture was complete: it is whole, but not yet as fine as asked");
         if (ending == Ending::asked) note("stopped before the picture was complete: it is whole, but not yet as fine as asked");
+        if (ending != Ending::complete && checkpoints.wanted() && saved) note("--resume goes on from " + checkpoints.file());
         std::string outputs;
         for (const std::string& output : options.picture.outputs) outputs += (outputs.empty() ? "" : ", ") + output;
         std::cout << summary(stats, checkpoints.rays_before(), settings, times, outputs);
