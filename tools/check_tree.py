@@ -42,7 +42,7 @@ LIBRARIES = {
     "nlohmann/": ["io/", "app/"],
     "CLI/": ["app/"],
     "spdlog/": ["app/"],
-    "xxhash.h": ["io/"],
+    "xxhash.h": ["base/", "io/"],
 }
 
 LONGEST = 500

@@ -5,11 +5,9 @@
 #include <cstdlib>
 #include <vector>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
-#include "io/atomic_file.h"
-#include "io/byte_archive.h"
+#include "base/atomic_file.h"
+#include "base/byte_archive.h"
+#include "base/checksum.h"
 #include "io/cad_messages.h"
 #include "io/content_hash.h"
 #include "io/text_file.h"
@@ -30,7 +28,7 @@ std::string lower_extension(const fs::path& file) {
 
 template <class Archive>
 void value(Archive& a, CadCacheFile& file) {
-    io::value(a, file.name), io::value(a, file.hash);
+    crescente::value(a, file.name), crescente::value(a, file.hash);
 }
 
 // The main file and those it refers to as they are now; nothing if one cannot be read.
@@ -55,11 +53,11 @@ std::string cad_cache_bytes(const CadCacheEntry& entry) {
     auto files = entry.files;
     list(body, files, 2 * sizeof(std::uint64_t), [&](CadCacheFile& file) { value(body, file); });
     body.bytes += pack_cad(entry.model);
-    std::uint64_t size = body.bytes.size(), checksum = XXH3_64bits(body.bytes.data(), body.bytes.size());
+    std::uint64_t size = body.bytes.size(), checksum = crescente::checksum(body.bytes);
     std::uint32_t version = cad_message_version;
     ByteWriter whole;
     whole.bytes = mark;
-    io::value(whole, version), io::value(whole, size), io::value(whole, checksum);
+    crescente::value(whole, version), crescente::value(whole, size), crescente::value(whole, checksum);
     return whole.bytes + body.bytes;
 }
 
@@ -68,9 +66,9 @@ std::optional<CadCacheEntry> cad_cache_entry(std::string_view bytes) {
     ByteReader reader{bytes.substr(mark.size())};
     std::uint32_t version = 0;
     std::uint64_t size = 0, checksum = 0;
-    io::value(reader, version), io::value(reader, size), io::value(reader, checksum);
+    crescente::value(reader, version), crescente::value(reader, size), crescente::value(reader, checksum);
     if (!reader.good() || version != cad_message_version || size != reader.bytes.size()) return std::nullopt;
-    if (checksum != XXH3_64bits(reader.bytes.data(), reader.bytes.size())) return std::nullopt;
+    if (checksum != crescente::checksum(reader.bytes)) return std::nullopt;
     CadCacheEntry entry;
     list(reader, entry.files, 2 * sizeof(std::uint64_t), [&](CadCacheFile& file) { value(reader, file); });
     if (!reader.good() || entry.files.empty()) return std::nullopt;

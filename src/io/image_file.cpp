@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/spelling.h"
-#include "io/atomic_file.h"
 #include "io/openimageio.h"
 #include "io/png_file.h"
 #include "scene/tonemap.h"

@@ -1,6 +1,6 @@
 #include "io/packed_scene.h"
 
-#include "io/byte_archive.h"
+#include "base/byte_archive.h"
 
 namespace crescente::io {
 namespace {

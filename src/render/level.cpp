@@ -17,4 +17,14 @@ std::span<const LevelKind> levels() {
     return table;
 }
 
+std::vector<Stage> stages_of(const scene::Settings& settings) {
+    std::vector<Stage> all;
+    for (const LevelKind& kind : levels()) {
+        if (kind.level > settings.level) break;
+        const std::vector<Stage> stages = kind.stages(settings);
+        all.insert(all.end(), stages.begin(), stages.end());
+    }
+    return all;
+}
+
 }  // namespace crescente::render

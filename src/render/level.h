@@ -26,4 +26,7 @@ struct LevelKind {
 
 std::span<const LevelKind> levels();
 
+// Of all levels that the settings ask for, in their order.
+std::vector<Stage> stages_of(const scene::Settings& settings);
+
 }  // namespace crescente::render

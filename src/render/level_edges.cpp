@@ -92,6 +92,20 @@ void unsplit(Tile& tile, const scene::Settings& settings) {
     if (!splits) tile.quads_before = {}, tile.subpixel_roots = {};
 }
 
+bool can_go_on(const Tile& tile, const Stage& stage) {
+    const int depth = static_cast<int>(stage.parameter) - 1;
+    if (tile.quads.empty() || tile.cursor > tile.todo.size() + 1) return false;
+    const std::vector<Place> places = quads_at_depth(tile, depth);
+    for (std::size_t i = 0; i < tile.todo.size(); ++i) {
+        if (tile.todo[i] >= places.size()) return false;
+        if (i + 1 >= tile.cursor) continue;  // not done yet
+        for (const LatticePoint& p : split_points(places[tile.todo[i]].at, (1u << subpixel_bits) >> depth)) {
+            if (!tile.subpixel_roots.contains(key_of(p))) return false;
+        }
+    }
+    return true;
+}
+
 std::vector<Stage> edges_stages(const scene::Settings& settings) {
     std::vector<Stage> stages;
     for (int depth = 1; depth <= settings.supersampling; ++depth) stages.push_back({scene::Level::edges, double(depth), 1.5});

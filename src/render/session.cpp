@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "parallel/pool.h"
+#include "render/checkpoint.h"
 #include "render/describe.h"
 #include "render/film.h"
 #include "render/level.h"
@@ -87,16 +88,9 @@ double distance(const Tile& tile, const Area& area) {
 }  // namespace
 
 void Session::State::plan_stages() {
-    const scene::Settings& settings = world->scene.settings;
-    stages.clear();
+    stages = stages_of(world->scene.settings);
     level_of_stage.clear();
-    for (const LevelKind& kind : levels()) {
-        if (kind.level > settings.level) break;
-        for (const Stage& stage : kind.stages(settings)) {
-            stages.push_back(stage);
-            level_of_stage.push_back(kind.level);
-        }
-    }
+    for (const Stage& stage : stages) level_of_stage.push_back(stage.level);
     level_seconds.resize(levels().size());
     level_rays.resize(levels().size());
 }
@@ -291,6 +285,13 @@ Expected<Session> Session::open(scene::Scene scene) {
     return Session(std::move(state));
 }
 
+Expected<Session> Session::resume(scene::Scene scene, const std::filesystem::path& file) {
+    auto session = open(std::move(scene));
+    if (!session) return session;
+    if (auto restored = session->restore(file); !restored) return tl::unexpected(std::move(restored.error()));
+    return session;
+}
+
 Session::Session(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
@@ -400,6 +401,40 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return report;
+}
+
+Expected<std::uint64_t> Session::save(const std::filesystem::path& file, const std::string& note) {
+    State& s = *state_;
+    s.catch_up(Deadline::never());
+    const SessionCounts counts{s.level_seconds, s.level_rays,    s.past_rays,     s.past_tests, s.render_seconds,
+                               s.peak_bytes,    s.drops,         s.dropped_bytes, s.dropped_nodes, s.revised};
+    return write_checkpoint(file, *s.world, note, counts, s.tiles);
+}
+
+Expected<void> Session::restore(const std::filesystem::path& file) {
+    State& s = *state_;
+    auto checkpoint = read_checkpoint(file, *s.world);
+    if (!checkpoint) return tl::unexpected(std::move(checkpoint.error()));
+    // The trees come with the settings by which they grew; those of the session are an edit of them.
+    const scene::Settings settings = s.world->scene.settings;
+    scene::Settings grown_by = settings;
+    copy_tree_settings(checkpoint->head.settings, grown_by);
+    if (grown_by != settings) {
+        if (auto set = edit({scene::SetSettings{grown_by}}); !set) return tl::unexpected(std::move(set.error()));
+    }
+    s.steps.clear();
+    s.settled = true;
+    s.seen = {};
+    s.tiles = std::move(checkpoint->tiles);
+    ++s.clock;
+    for (Tile& tile : s.tiles) tile.revision = s.edits, tile.changed = s.clock;
+    SessionCounts& counts = checkpoint->head.counts;
+    s.level_seconds = std::move(counts.level_seconds), s.level_rays = std::move(counts.level_rays);
+    s.past_rays = counts.past_rays, s.past_tests = counts.past_tests, s.render_seconds = counts.render_seconds;
+    s.peak_bytes = counts.peak_bytes, s.drops = counts.drops, s.dropped_bytes = counts.dropped_bytes, s.dropped_nodes = counts.dropped_nodes;
+    s.revised = counts.revised;
+    if (grown_by == settings) return {};
+    return edit({scene::SetSettings{settings}}).map([](const EditReport&) {});
 }
 
 scene::Image Session::picture(bool all_layers) const {

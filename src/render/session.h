@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -76,6 +77,8 @@ public:
     // Builds the acceleration structure. The scene must be valid and have a camera. Errors: a setting that this build
     // cannot serve, not enough memory.
     static Expected<Session> open(scene::Scene scene);
+    // The same, gone on from a checkpoint: open() and restore(), with the errors of both.
+    static Expected<Session> resume(scene::Scene scene, const std::filesystem::path& file);
     Session(Session&&) noexcept;
     Session& operator=(Session&&) noexcept;
     ~Session();
@@ -86,6 +89,16 @@ public:
     // Changes the scene; what it does not touch is kept, and advance() does the rest. The converged picture is that of a fresh session of the edited
     // scene, to the bit. Several edits are one. Errors (input, resource): every problem, with `file` and its place; nothing has changed then.
     Expected<EditReport> edit(std::vector<scene::Edit> edits, const std::string& file = {});
+
+    // Writes the whole forest to a file, from which it can be brought back: a checkpoint (render/checkpoint.h). Between calls of advance(), after any edits;
+    // what was edited is brought up to date first. `note`: up to 64 KiB for whoever reads its head. Returns the size in bytes. Errors: output, resource; an
+    // older checkpoint of that name is then as it was, and so is the session.
+    Expected<std::uint64_t> save(const std::filesystem::path& file, const std::string& note = {});
+
+    // Takes the forest of a checkpoint in place of its own: what was traced is there, and what is still to be done ends in the same picture, to the bit.
+    // The session's scene, with its edits, must be that of the checkpoint, its picture of the same size in the same tiles; settings of growth (level,
+    // threshold, ...) may be others, which is an edit. Errors: input (missing, damaged, of another version or scene), resource; the session is then as it was.
+    Expected<void> restore(const std::filesystem::path& file);
 
     // The picture so far, whole at any moment: layer "color" only, or with all layers (see scene/image.h).
     scene::Image picture(bool all_layers = false) const;

@@ -2,6 +2,8 @@
 // bit. And law 3: an edit costs what it changes.
 //
 // CRESCENTE_EDIT_SCRIPTS=1000 test_render --gtest_filter='EditScripts.*' plays that many random scripts.
+#include <unistd.h>
+
 #include <cstdlib>
 
 #include "render/scenes.h"
@@ -176,10 +178,17 @@ Scene start(std::uint64_t seed) {
     return scene;
 }
 
-// Plays the script; says what is wrong, or nothing.
+// Where a script leaves its checkpoints, which are taken away again.
+struct ScriptFile {
+    std::filesystem::path path = std::filesystem::temp_directory_path() / ("crescente-edits-" + std::to_string(getpid()) + ".checkpoint");
+    ~ScriptFile() { std::filesystem::remove(path); }
+};
+
+// Plays the script; says what is wrong, or nothing. Now and then another session goes on from a checkpoint.
 std::string play(const Script& script, bool tell = false) {
     Session session = opened(start(script.seed));
     Frame frame;  // brought up to date now and then
+    const ScriptFile file;
     std::string told;
     for (const int step : script.steps) {
         Random random(mix_bits(script.seed * 1000 + static_cast<std::uint64_t>(step)));
@@ -201,6 +210,13 @@ std::string play(const Script& script, bool tell = false) {
             if (const auto same = same_picture(session.picture(), frame.image); !same) return told + "refreshed: " + same.message();
         }
         if (random.chance(0.3)) session.look_at({static_cast<int>(random.below(40)), static_cast<int>(random.below(30)), static_cast<int>(random.below(20)), 5});
+        if ((script.seed + static_cast<std::uint64_t>(step)) % 3 == 0) {
+            if (const auto saved = session.save(file.path); !saved) return told + saved.error().text();
+            auto again = Session::resume(session.scene(), file.path);
+            if (!again) return told + again.error().text();
+            session = std::move(*again);
+            frame = {};
+        }
         auto done = session.edit(std::move(batch));
         if (!done) continue;  // a batch may break the scene: refused whole
         if (random.chance(0.2)) {

@@ -1,15 +1,18 @@
 // crescente edit MODEL SCRIPT
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <memory>
 
+#include "app/cli/checkpoints.h"
 #include "app/cli/command.h"
 #include "app/cli/edit_report.h"
 #include "app/cli/load.h"
 #include "app/cli/picture_options.h"
 #include "app/cli/progress.h"
+#include "app/cli/script_progress.h"
 #include "app/cli/stop.h"
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/content_hash.h"
 #include "io/text_file.h"
 
@@ -19,15 +22,17 @@ namespace {
 struct EditOptions {
     SceneOptions scene;
     PictureOptions picture;
+    CheckpointOptions checkpoint;
     std::string script, report_file;
     bool check = false, quiet = false;
 };
 
-// Every picture and the report, before anything is rendered.
-Expected<void> check_outputs(const EditOptions& options, const std::vector<io::ScriptLine>& lines) {
-    OutputCheck check;
-    for (const std::string& output : options.picture.outputs) check.add(io::can_write(output));
-    if (!options.report_file.empty()) check.add(io::can_write_file(options.report_file));
+// Every picture, the report and the checkpoint, before anything is rendered.
+Expected<void> check_outputs(const EditOptions& options, const CheckpointRequest& checkpoint, const std::vector<io::ScriptLine>& lines) {
+    OutputCheck all;
+    for (const std::string& output : options.picture.outputs) all.add(io::can_write(output));
+    if (!options.report_file.empty()) all.add(can_write_file(options.report_file));
+    all.add(check(checkpoint));
     for (const io::ScriptLine& line : lines) {
         const auto* picture = std::get_if<io::SavePicture>(&line.step);
         if (!picture) continue;
@@ -35,9 +40,9 @@ Expected<void> check_outputs(const EditOptions& options, const std::vector<io::S
         if (!writable) {
             for (Problem& problem : writable.error().problems) problem.hint += (problem.hint.empty() ? "" : "; ") + options.script + ", line " + std::to_string(line.number);
         }
-        check.add(writable);
+        all.add(writable);
     }
-    return check.result();
+    return all.result();
 }
 
 Expected<std::vector<io::ScriptLine>> read_script(const std::string& file) {
@@ -58,7 +63,7 @@ Expected<void> write_pictures(const render::Session& session, const std::vector<
 }
 
 // Renders to the end. Nothing if the user stopped it.
-std::optional<FreshRender> render_fresh(render::Session& session, const StopRequests& stop, bool quiet) {
+std::optional<FreshRender> render_fresh(render::Session& session, const StopRequests& stop, const std::function<void()>& pause, bool quiet) {
     constexpr auto between_updates = std::chrono::milliseconds(100);
     ProgressDisplay display(quiet, std::nullopt);
     const scene::Settings& settings = session.scene().settings;
@@ -68,6 +73,7 @@ std::optional<FreshRender> render_fresh(render::Session& session, const StopRequ
         progress = session.advance({std::chrono::steady_clock::now() + between_updates, &stop.asked()});
         display.show(progress, session);
         if (stop.asked()) return std::nullopt;
+        pause();
     }
     const render::Stats stats = session.stats();
     return FreshRender{stats.rays, stats.build_seconds + stats.render_seconds};
@@ -81,9 +87,11 @@ ExitCode stopped() {
 ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     const auto request = understand(options.scene);
     if (!request) return fail(request.error());
+    const auto checkpoint = understand(options.checkpoint);
+    if (!checkpoint) return fail(checkpoint.error());
     const auto lines = read_script(options.script);
     if (!lines) return fail(lines.error());
-    if (const auto writable = check_outputs(options, *lines); !writable) return fail(writable.error());
+    if (const auto writable = check_outputs(options, *checkpoint, *lines); !writable) return fail(writable.error());
 
     auto loaded = [&] {
         LoadingDisplay display(options.quiet);
@@ -94,31 +102,49 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
 
-    auto session = render::Session::open(std::move(loaded->scene));
-    if (!session) return fail(session.error());
+    Checkpoints checkpoints(*checkpoint);
+    auto begun = begin_script(checkpoints, std::move(loaded->scene), *lines, options.script);
+    if (!begun) return fail(begun.error());
+    render::Session& session = begun->session;
+    ScriptProgress& progress = begun->progress;
+    const auto look = [&] { checkpoints.look(session, note_of(progress, *lines)); };
+    // What is done is kept, however early the script ends.
+    const auto ended = [&](ExitCode code) {
+        const auto saved = checkpoints.end(session, note_of(progress, *lines));
+        return saved ? code : fail(saved.error());
+    };
+
     const StopRequests stop;
-    const auto fresh = render_fresh(*session, stop, options.quiet);
-    if (!fresh) return stopped();
+    if (!progress.fresh) progress.fresh = render_fresh(session, stop, look, options.quiet);
+    if (!progress.fresh) return ended(stopped());
+    const FreshRender fresh = *progress.fresh;
 
     const auto say = [&](const std::string& text) {
         if (!options.quiet) std::cout << text << std::flush;
     };
-    const scene::Settings first = session->scene().settings;
-    say(report_head(first, tiles_of(first), session->stats().threads, *fresh));
+    const scene::Settings first = session.scene().settings;
+    say(report_head(first, tiles_of(first), session.stats().threads, fresh));
     std::vector<PlayedEdit> edits;
     EditPlayer player(
-        *session, options.script, stop.asked(), [&](const std::string& file) { return write_pictures(*session, {file}, options.picture, invocation); },
+        session, begun->history, options.script, stop.asked(), [&](const std::string& file) { return write_pictures(session, {file}, options.picture, invocation); },
         [&](const PlayedEdit& played) {
             edits.push_back(played);
-            say(report_row(played, tiles_of(session->scene().settings), *fresh));
-        });
+            say(report_row(played, tiles_of(session.scene().settings), fresh));
+        },
+        look);
+    const std::uint32_t played_before = progress.line;
+    if (played_before > 0) player.go_on();
     for (const io::ScriptLine& line : *lines) {
-        if (const auto played = player.play(line); !played) return fail(played.error());
-        if (stop.asked()) return stopped();
+        if (stop.asked()) return ended(stopped());
+        if (line.number <= played_before) continue;
+        if (const auto played = player.play(line); !played) return ended(fail(played.error()));
+        const bool unsaved = stop.asked() && std::holds_alternative<io::SavePicture>(line.step);
+        if (!unsaved) progress.line = line.number;
     }
     player.finish();
-    if (stop.asked()) return stopped();
-    say(report_sums(edits, *fresh));
+    if (stop.asked()) return ended(stopped());
+    const auto saved = checkpoints.end(session, note_of(progress, *lines));
+    say(report_sums(edits, fresh));
 
     nlohmann::ordered_json report = {{"version", CRESCENTE_VERSION},
                                      {"command", invocation.command_line},
@@ -128,31 +154,36 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
                                      {"width", first.width},
                                      {"height", first.height},
                                      {"tiles", tiles_of(first)},
-                                     {"threads", session->stats().threads},
-                                     {"fresh", fresh_json(*fresh)},
-                                     {"edits", edits_json(edits, *fresh)},
+                                     {"threads", session.stats().threads},
+                                     {"fresh", fresh_json(fresh)},
+                                     {"edits", edits_json(edits, fresh)},
                                      {"sum", sums_json(edits)}};
+    if (checkpoints.wanted()) {
+        report["checkpoint"] = checkpoints.json();
+        report["checkpoint"]["played_before"] = played_before;
+    }
     bool equal = true;
     if (options.check) {
-        auto again = render::Session::open(session->scene());
+        auto again = render::Session::open(session.scene());
         if (!again) return fail(again.error());
-        const auto cost = render_fresh(*again, stop, options.quiet);
+        const auto cost = render_fresh(*again, stop, [] {}, options.quiet);
         if (!cost) return stopped();
-        const std::size_t different = different_pixels(session->picture(true), again->picture(true));
+        const std::size_t different = different_pixels(session.picture(true), again->picture(true));
         equal = different == 0;
         report["check"] = {{"equal", equal}, {"different_pixels", different}};
         report["check"].update(fresh_json(*cost));
         say(equal ? "check: the picture is that of a fresh render, to the bit\n"
                   : "check: " + std::to_string(different) + " pixels differ from a fresh render\n");
     }
-    if (const auto written = write_pictures(*session, options.picture.outputs, options.picture, invocation); !written) return fail(written.error());
+    if (const auto written = write_pictures(session, options.picture.outputs, options.picture, invocation); !written) return fail(written.error());
     if (!options.report_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-        if (const auto written = io::write_atomically(options.report_file, text); !written) return fail(written.error());
+        if (const auto written = write_atomically(options.report_file, text); !written) return fail(written.error());
     }
     std::cout.flush();
     if (!std::cout) return fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
     if (!equal) note("the picture after the edits is not that of a fresh render: please report it, with model and script");
+    if (!saved) return fail(saved.error());
     return equal ? exit_ok : exit_different;
 }
 
@@ -164,6 +195,7 @@ Command add_edit(CLI::App& app) {
     add_scene_options(*parser, options->scene);
     parser->add_option("SCRIPT", options->script, "Edits, a JSON object a line (see docs/edits.md)")->required()->option_text(" ");
     add_picture_options(*parser, options->picture, false);
+    add_checkpoint_options(*parser, options->checkpoint);
     parser->add_option("--json", options->report_file, "Write what each edit cost as JSON")->option_text("FILE");
     parser->add_flag("--check", options->check, "At the end compare with a fresh render; exit code 1 if any bit differs");
     parser->add_flag("-q,--quiet", options->quiet, "No progress and no table");

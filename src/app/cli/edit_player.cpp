@@ -33,69 +33,81 @@ int level_index(const std::string& name) {
 
 std::string line_text(std::uint32_t number) { return "line " + std::to_string(number); }
 
+using Reports = std::vector<render::EditReport>;
+
+Expected<Reports> make_edit(const io::ScriptLine& line, const io::Json& json, const std::string& script, render::Session& session, render::History& history) {
+    auto edits = io::read_edit(json, session.scene(), script);
+    if (!edits) return tl::unexpected(std::move(edits.error()));
+    auto report = history.edit(session, std::move(*edits), script);
+    if (!report) {
+        for (Problem& problem : report.error().problems) problem.place = line_text(line.number) + (problem.place.empty() ? "" : ", " + problem.place);
+        return tl::unexpected(std::move(report.error()));
+    }
+    Reports reports;
+    reports.push_back(std::move(*report));
+    return reports;
+}
+
+Expected<Reports> go_through_history(const io::ScriptLine& line, int times, bool undo, const std::string& script, render::Session& session, render::History& history) {
+    const std::size_t there = undo ? history.undoable() : history.redoable();
+    if (there < static_cast<std::size_t>(times)) {
+        const std::string reason = std::string(there == 0 ? "no edit" : there == 1 ? "one edit only" : std::to_string(there) + " edits only") + " can be " +
+                                   (undo ? "taken back" : "made again");
+        return failure(ErrorKind::input, {script, line_text(line.number) + (undo ? ", /undo" : ", /redo"), reason, ""});
+    }
+    Reports reports;
+    for (int i = 0; i < times; ++i) {
+        auto report = undo ? history.undo(session) : history.redo(session);
+        if (!report) return tl::unexpected(std::move(report.error()));
+        reports.push_back(std::move(*report));
+    }
+    return reports;
+}
+
 }  // namespace
+
+Expected<Reports> make_edits(const io::ScriptLine& line, const std::string& script, render::Session& session, render::History& history) {
+    if (const auto* json = std::get_if<io::Json>(&line.step)) return make_edit(line, *json, script, session, history);
+    if (const auto* undo = std::get_if<io::Undo>(&line.step)) return go_through_history(line, undo->times, true, script, session, history);
+    return go_through_history(line, std::get<io::Redo>(line.step).times, false, script, session, history);
+}
 
 std::size_t tiles_of(const scene::Settings& settings) {
     const auto across = [&](int pixels) { return static_cast<std::size_t>((pixels + settings.tile - 1) / settings.tile); };
     return across(settings.width) * across(settings.height);
 }
 
-EditPlayer::EditPlayer(render::Session& session, std::string script, const std::atomic<bool>& stop, std::function<Expected<void>(const std::string&)> save,
-                       std::function<void(const PlayedEdit&)> finished)
-    : session_(session), script_(std::move(script)), stop_(stop), save_(std::move(save)), finished_(std::move(finished)) {
+EditPlayer::EditPlayer(render::Session& session, render::History& history, std::string script, const std::atomic<bool>& stop, std::function<Expected<void>(const std::string&)> save,
+                       std::function<void(const PlayedEdit&)> finished, std::function<void()> pause)
+    : session_(session), history_(history), script_(std::move(script)), stop_(stop), save_(std::move(save)), finished_(std::move(finished)), pause_(std::move(pause)) {
     progress_.done = true;
 }
 
 Expected<void> EditPlayer::play(const io::ScriptLine& line) {
-    if (const auto* json = std::get_if<io::Json>(&line.step)) return play_edit(line, *json);
-    if (const auto* undo = std::get_if<io::Undo>(&line.step)) return play_history(line, undo->times, true);
-    if (const auto* redo = std::get_if<io::Redo>(&line.step)) return play_history(line, redo->times, false);
     if (const auto* advance = std::get_if<io::Advance>(&line.step)) {
         advanced_ = true;
         grow(*advance);
         return {};
     }
     settle();
-    if (stop_) return {};
-    return save_(std::get<io::SavePicture>(line.step).file);
+    if (const auto* picture = std::get_if<io::SavePicture>(&line.step)) {
+        if (stop_) return {};
+        return save_(picture->file);
+    }
+    begin(line);
+    const auto reports = make_edits(line, script_, session_, history_);
+    if (!reports) {
+        edit_.reset();
+        return tl::unexpected(reports.error());
+    }
+    for (const render::EditReport& report : *reports) take(report);
+    return {};
 }
 
 void EditPlayer::finish() {
     settle();
     end();
     grow({});
-}
-
-Expected<void> EditPlayer::play_edit(const io::ScriptLine& line, const io::Json& json) {
-    settle();
-    auto edits = io::read_edit(json, session_.scene(), script_);
-    if (!edits) return tl::unexpected(std::move(edits.error()));
-    begin(line);
-    auto report = history_.edit(session_, std::move(*edits), script_);
-    if (!report) {
-        edit_.reset();
-        for (Problem& problem : report.error().problems) problem.place = line_text(line.number) + (problem.place.empty() ? "" : ", " + problem.place);
-        return tl::unexpected(std::move(report.error()));
-    }
-    take(*report);
-    return {};
-}
-
-Expected<void> EditPlayer::play_history(const io::ScriptLine& line, int times, bool undo) {
-    settle();
-    const std::size_t there = undo ? history_.undoable() : history_.redoable();
-    if (there < static_cast<std::size_t>(times)) {
-        const std::string reason = std::string(there == 0 ? "no edit" : there == 1 ? "one edit only" : std::to_string(there) + " edits only") + " can be " +
-                                   (undo ? "taken back" : "made again");
-        return failure(ErrorKind::input, {script_, line_text(line.number) + (undo ? ", /undo" : ", /redo"), reason, ""});
-    }
-    begin(line);
-    for (int i = 0; i < times; ++i) {
-        const auto report = undo ? history_.undo(session_) : history_.redo(session_);
-        if (!report) return tl::unexpected(report.error());
-        take(*report);
-    }
-    return {};
 }
 
 void EditPlayer::begin(const io::ScriptLine& line) {
@@ -139,18 +151,20 @@ bool EditPlayer::enough(const io::Advance& until, double grown) const {
 }
 
 void EditPlayer::grow(const io::Advance& until) {
-    constexpr double quantum = 0.002, share = 1.0 / 8;
+    constexpr double quantum = 0.002, share = 1.0 / 8, longest = 0.5;
     double grown = 0;
     while (!enough(until, grown)) {
         const bool looking = edit_ && !edit_->first;
         // Pictures are compared every few milliseconds at first, then at every eighth of the time more.
-        double step = looking ? std::max(quantum, elapsed_ * share) : until.level ? quantum : 1e6;
+        double step = looking ? std::max(quantum, elapsed_ * share) : until.level ? quantum : longest;
+        step = std::min(step, longest);
         if (until.seconds) step = std::min(step, *until.seconds - grown);
         const auto start = Clock::now();
         progress_ = session_.advance({in_seconds(step), &stop_});
         const double seconds = seconds_since(start);
         grown += seconds, elapsed_ += seconds;
         if (looking) look_for_change();
+        pause_();
     }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/edit_script.h"
 #include "render/history.h"
@@ -24,21 +25,26 @@ struct PlayedEdit {
     std::optional<double> converged;  // seconds to the finished picture, without those in which pictures were compared; nothing: it was not let grow to the end
 };
 
+// Makes the edits of a line, which must be an edit, an undo or a redo; nothing grows. Errors: of the line, of which then nothing is done.
+Expected<std::vector<render::EditReport>> make_edits(const io::ScriptLine& line, const std::string& script, render::Session& session, render::History& history);
+
 class EditPlayer {
 public:
-    // `session` has converged. `save` writes the picture as it is; `finished` hears of each edit once the next begins. `stop` ends growing.
-    EditPlayer(render::Session& session, std::string script, const std::atomic<bool>& stop, std::function<Expected<void>(const std::string& file)> save,
-               std::function<void(const PlayedEdit&)> finished);
+    // `save` writes the picture as it is; `finished` hears of each edit once the next begins; `pause` is called every now and then while
+    // the picture grows. `stop` ends growing.
+    EditPlayer(render::Session& session, render::History& history, std::string script, const std::atomic<bool>& stop, std::function<Expected<void>(const std::string& file)> save,
+               std::function<void(const PlayedEdit&)> finished, std::function<void()> pause);
 
     // Errors: of the line, of which then nothing is done.
     Expected<void> play(const io::ScriptLine& line);
+
+    // Before the first line, where the session goes on from a checkpoint: lets the picture grow to the end.
+    void go_on() { grow({}); }
 
     // After the last line. Lets the picture grow to the end.
     void finish();
 
 private:
-    Expected<void> play_edit(const io::ScriptLine& line, const io::Json& json);
-    Expected<void> play_history(const io::ScriptLine& line, int times, bool undo);
     void begin(const io::ScriptLine& line);
     void take(const render::EditReport& report);
     void end();
@@ -48,11 +54,12 @@ private:
     void look_for_change();
 
     render::Session& session_;
-    render::History history_;
+    render::History& history_;
     std::string script_;
     const std::atomic<bool>& stop_;
     std::function<Expected<void>(const std::string&)> save_;
     std::function<void(const PlayedEdit&)> finished_;
+    std::function<void()> pause_;
 
     std::optional<PlayedEdit> edit_;  // that is being measured
     bool advanced_ = false;           // the script lets it grow itself

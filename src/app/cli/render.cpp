@@ -10,8 +10,8 @@
 #include <optional>
 #include <sstream>
 
+#include "app/cli/checkpoints.h"
 #include "app/cli/command.h"
-#include "io/content_hash.h"
 #include "app/cli/load.h"
 #include "app/cli/picture_options.h"
 #include "app/cli/progress.h"
@@ -19,7 +19,8 @@
 #include "app/cli/scene_options.h"
 #include "app/cli/stats_json.h"
 #include "app/cli/stop.h"
-#include "io/atomic_file.h"
+#include "base/atomic_file.h"
+#include "io/content_hash.h"
 #include "render/session.h"
 
 namespace crescente::app {
@@ -31,6 +32,7 @@ using Clock = std::chrono::steady_clock;
 struct RenderOptions {
     SceneOptions scene;
     PictureOptions picture;
+    CheckpointOptions checkpoint;
     std::string stats_file;
     std::optional<std::string> time, replay, pick;
     bool quiet = false;
@@ -43,6 +45,7 @@ struct Pixel {
 // What they ask for.
 struct Request {
     SceneRequest scene;
+    CheckpointRequest checkpoint;
     std::optional<std::chrono::duration<double>> time;
     std::optional<Pixel> replay, pick;
 };
@@ -75,6 +78,7 @@ Expected<Request> understand(const RenderOptions& options) {
         }
     };
     keep(app::understand(options.scene), request.scene);
+    keep(app::understand(options.checkpoint), request.checkpoint);
     if (options.time) keep(parse_duration("--time", *options.time), request.time);
     const auto keep_pixel = [&](const char* option, const std::optional<std::string>& text, std::optional<Pixel>& place) {
         if (!text) return;
@@ -112,16 +116,17 @@ std::string pick_text(const scene::Scene& scene, const std::optional<render::Pic
 }
 
 // Every output that cannot be written, before anything is rendered.
-Expected<void> check_outputs(const RenderOptions& options) {
-    OutputCheck check;
-    for (const std::string& output : options.picture.outputs) check.add(io::can_write(output));
-    if (!options.stats_file.empty()) check.add(io::can_write_file(options.stats_file));
-    return check.result();
+Expected<void> check_outputs(const RenderOptions& options, const Request& request) {
+    OutputCheck all;
+    for (const std::string& output : options.picture.outputs) all.add(io::can_write(output));
+    if (!options.stats_file.empty()) all.add(can_write_file(options.stats_file));
+    all.add(check(request.checkpoint));
+    return all.result();
 }
 
 // Lets the picture grow until it is complete, the time is over or the user has seen enough. The first whole picture is
 // always waited for.
-Ending grow(render::Session& session, const Request& request, const StopRequests& stop, ProgressDisplay& display) {
+Ending grow(render::Session& session, const Request& request, const StopRequests& stop, Checkpoints& checkpoints, ProgressDisplay& display) {
     constexpr auto between_updates = std::chrono::milliseconds(100);
     const auto start = Clock::now();
     const auto end = request.time ? start + std::chrono::duration_cast<Clock::duration>(*request.time) : Clock::time_point::max();
@@ -135,12 +140,14 @@ Ending grow(render::Session& session, const Request& request, const StopRequests
         if (stop.insisted()) return Ending::insisted;
         if (!progress.first_picture) continue;
         if (stop.asked()) return Ending::asked;
+        checkpoints.look(session);
         if (Clock::now() >= end) return Ending::time;
     }
 }
 
-std::string summary(const render::Stats& stats, const scene::Settings& settings, const RunTimes& times, const std::string& output) {
-    const double rate = static_cast<double>(stats.rays.total()) / std::max(times.render, 1e-9);
+std::string summary(const render::Stats& stats, const render::RayCounts& rays_before, const scene::Settings& settings, const RunTimes& times,
+                    const std::string& output) {
+    const double rate = static_cast<double>(stats.rays.total() - rays_before.total()) / std::max(times.render, 1e-9);
     const auto count = [](std::uint64_t n) { return human_count(static_cast<double>(n)); };
     char bytes[32];
     std::snprintf(bytes, sizeof bytes, "%.0f", stats.bytes_per_pixel);
@@ -168,7 +175,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
 
     const auto request = understand(options);
     if (!request) return fail(request.error());
-    if (const auto writable = check_outputs(options); !writable) return fail(writable.error());
+    if (const auto writable = check_outputs(options, *request); !writable) return fail(writable.error());
 
     auto loaded = [&] {
         LoadingDisplay display(options.quiet);
@@ -192,19 +199,23 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     auto session = render::Session::open(std::move(loaded->scene));
     if (!session) return fail(session.error());
 
+    Checkpoints checkpoints(request->checkpoint);
+    if (const auto begun = checkpoints.begin(*session); !begun) return fail(begun.error());
+
     const StopRequests stop;
     const auto render_start = Clock::now();
     Ending ending;
     {
         ProgressDisplay display(options.quiet, request->time);
         display.announce("rendering " + std::to_string(settings.width) + "x" + std::to_string(settings.height));
-        ending = grow(*session, *request, stop, display);
+        ending = grow(*session, *request, stop, checkpoints, display);
     }
     times.render = seconds_since(render_start);
     if (ending == Ending::insisted) {
         note("stopped; nothing was written");
         return exit_stopped;
     }
+    const auto saved = checkpoints.end(*session);  // before the picture: that could be made again from it
 
     const render::Stats stats = session->stats();
     nlohmann::ordered_json report = {{"version", CRESCENTE_VERSION},
@@ -214,6 +225,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
                                      {"height", settings.height},
                                      {"ended_by", ending_name(ending)}};
     report.update(stats_json(stats));
+    if (checkpoints.wanted()) report["checkpoint"] = checkpoints.json();
     report["time"] = {{"load", times.load}, {"build", stats.build_seconds}, {"render", times.render}};
 
     if (!options.picture.outputs.empty()) {
@@ -237,19 +249,21 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     report["time"]["cpu"] = times.cpu;
     if (!options.stats_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-        if (const auto written = io::write_atomically(options.stats_file, text); !written) return fail(written.error());
+        if (const auto written = write_atomically(options.stats_file, text); !written) return fail(written.error());
     }
 
     if (!options.quiet) {
         if (ending == Ending::time) note("the time was over before the picture was complete: it is whole, but not yet as fine as asked");
         if (ending == Ending::asked) note("stopped before the picture was complete: it is whole, but not yet as fine as asked");
+        if (ending != Ending::complete && checkpoints.wanted() && saved) note("--resume goes on from " + checkpoints.file());
         std::string outputs;
         for (const std::string& output : options.picture.outputs) outputs += (outputs.empty() ? "" : ", ") + output;
-        std::cout << summary(stats, settings, times, outputs);
+        std::cout << summary(stats, checkpoints.rays_before(), settings, times, outputs);
     }
     if (request->replay) std::cout << session->describe(request->replay->x, request->replay->y);
     if (request->pick) std::cout << pick_text(session->scene(), session->pick(request->pick->x, request->pick->y));
     std::cout.flush();
+    if (!saved) return fail(saved.error());
     return std::cout ? exit_ok : fail({ErrorKind::output, {{"", "standard output", "cannot be written", ""}}});
 }
 
@@ -261,6 +275,7 @@ Command add_render(CLI::App& app) {
     add_scene_options(*parser, options->scene);
     add_picture_options(*parser, options->picture, true);
     parser->add_option("--time", options->time, "Stop rendering after this time (10s, 2m): the picture is whole at any moment")->option_text("TIME");
+    add_checkpoint_options(*parser, options->checkpoint);
     parser->add_option("--stats", options->stats_file, "Write counters and times as JSON")->option_text("FILE");
     parser->add_option("--replay", options->replay, "Print the ray tree of a pixel, counted from the top left")->option_text("X,Y");
     parser->add_option("--pick", options->pick, "Print what is seen through a pixel: object, face, material, position, normal")->option_text("X,Y");
@@ -270,6 +285,7 @@ Command add_render(CLI::App& app) {
         "Examples:\n"
         "  crescente render engine.glb -o engine.png\n"
         "  crescente render engine.glb -o engine.png -o engine.exr --size 1920x1080 --camera iso --time 10s\n"
+        "  crescente render engine.glb -o engine.png --size 16000x9000 --checkpoint engine.ck --resume --fresh\n"
         "  crescente render balls4.nff -o balls.png --depth 4 --set settings.contrast=0.05 --stats balls.json");
     return {parser, [options](const Invocation& invocation) { return render(*options, invocation); }};
 }

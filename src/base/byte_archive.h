@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 
-namespace crescente::io {
+namespace crescente {
 
 struct ByteWriter {
     std::string bytes;
@@ -86,4 +86,4 @@ void problems(Archive& a, Problems& v) {
     });
 }
 
-}  // namespace crescente::io
+}  // namespace crescente

@@ -1,0 +1,111 @@
+#include "render/tile_archive.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/byte_archive.h"
+
+namespace crescente::render {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the bytes of numbers go into the file as they are");
+
+// A node without the bits that nobody has set.
+struct NodeRecord {
+    Vec3 position;
+    std::array<float, 3> normal;
+    std::uint32_t geometric_normal;
+    float offset;
+    std::uint32_t instance, primitive, material, parent, reflected, refracted;
+    Rgb weight, local;
+    std::uint8_t depth, flags;
+    std::uint16_t zero;
+};
+static_assert(sizeof(NodeRecord) == 96);
+
+NodeRecord record_of(const Node& n) {
+    const int flags = n.inside | n.crossed << 1 | n.shadowed << 2 | n.spawned << 3 | n.hidden << 4;
+    return {n.position, n.normal, n.geometric_normal, n.offset, n.instance, n.primitive, n.material, n.parent, n.reflected, n.refracted, n.weight, n.local,
+            n.depth, static_cast<std::uint8_t>(flags), 0};
+}
+Node node_of(const NodeRecord& r) {
+    Node n;
+    n.position = r.position, n.normal = r.normal, n.geometric_normal = r.geometric_normal, n.offset = r.offset;
+    n.instance = r.instance, n.primitive = r.primitive, n.material = r.material;
+    n.parent = r.parent, n.reflected = r.reflected, n.refracted = r.refracted, n.weight = r.weight, n.local = r.local, n.depth = r.depth;
+    n.inside = r.flags & 1, n.crossed = r.flags >> 1 & 1, n.shadowed = r.flags >> 2 & 1, n.spawned = r.flags >> 3 & 1, n.hidden = r.flags >> 4 & 1;
+    return n;
+}
+
+struct PendingRecord {
+    std::uint32_t parent;
+    Rgb weight;
+    float influence;
+    std::uint32_t way;
+};
+
+template <class Archive>
+void nodes(Archive& a, std::vector<Node>& v) {
+    list(a, v, sizeof(NodeRecord), [&](Node& node) {
+        NodeRecord record = record_of(node);
+        value(a, record);
+        if (record.flags >= 32 || record.zero != 0) a.fail();
+        node = node_of(record);
+    });
+}
+template <class Archive>
+void rays(Archive& a, std::vector<Pending>& v) {
+    list(a, v, sizeof(PendingRecord), [&](Pending& p) {
+        PendingRecord record{p.parent, p.weight, p.influence, static_cast<std::uint32_t>(p.way)};
+        value(a, record);
+        if (record.way > static_cast<std::uint32_t>(Way::straight)) return a.fail();
+        p = {record.parent, record.weight, record.influence, static_cast<Way>(record.way)};
+    });
+}
+// In the order of its keys, so that the same tile gives the same bytes.
+template <class Archive, class Key, class Value>
+void map(Archive& a, std::unordered_map<Key, Value>& v) {
+    std::vector<std::pair<Key, Value>> entries(v.begin(), v.end());
+    std::sort(entries.begin(), entries.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
+    list(a, entries, sizeof(Key) + sizeof(Value), [&](auto& entry) { value(a, entry.first), value(a, entry.second); });
+    if constexpr (std::is_same_v<Archive, ByteReader>) {
+        if (a.good()) v = {entries.begin(), entries.end()};
+        if (v.size() != entries.size()) a.fail();
+    }
+}
+
+template <class Archive>
+void columns(Archive& a, Tile& t) {
+    nodes(a, t.nodes);
+    array(a, t.shares);
+    map(a, t.filtered), map(a, t.straight);
+    array(a, t.corners);
+    rays(a, t.pending), rays(a, t.growing);
+    array(a, t.quads), array(a, t.quads_before);
+    map(a, t.subpixel_roots);
+    value(a, t.stage), value(a, t.cursor);
+    array(a, t.todo);
+    array(a, t.pixels);
+    value(a, t.pixels_stage);
+    value(a, t.going_on), value(a, t.lit), value(a, t.untried), value(a, t.split_anew);
+    value(a, t.forgotten);
+    value(a, t.rays), value(a, t.tests);
+}
+
+}  // namespace
+
+void append_tile(Tile& tile, std::string& bytes) {
+    ByteWriter writer{std::move(bytes)};
+    columns(writer, tile);
+    bytes = std::move(writer.bytes);
+}
+
+std::optional<Tile> tile_of(std::string_view bytes, const Tile& place) {
+    Tile tile = blank_tile(place);
+    ByteReader reader{bytes};
+    columns(reader, tile);
+    if (!reader.good() || !reader.bytes.empty()) return std::nullopt;
+    return tile;
+}
+
+}  // namespace crescente::render

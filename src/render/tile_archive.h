@@ -1,0 +1,19 @@
+// The columns of a tile as bytes, and back. docs/forest.md has the layout.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "render/forest.h"
+
+namespace crescente::render {
+
+// All that the tile holds but its place and the number of its last edit, which it must know. Appended to `bytes`.
+void append_tile(Tile& tile, std::string& bytes);
+
+// The tile again, at the place of `place`. Nothing if the bytes are not whole. They may be hostile: no more is allocated than they hold, but whether the
+// tile makes sense is for render/tile_check.h to say.
+std::optional<Tile> tile_of(std::string_view bytes, const Tile& place);
+
+}  // namespace crescente::render

@@ -1,0 +1,165 @@
+#include "render/tile_check.h"
+
+#include <algorithm>
+
+#include "render/level_edges.h"
+
+namespace crescente::render {
+namespace {
+
+bool is_finite(const std::array<float, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+
+// One more than the largest primitive that a hit on the shape can name.
+std::uint32_t primitives(const geometry::Shape& shape) {
+    if (std::holds_alternative<geometry::Box>(shape)) return 6;  // its sides
+    if (std::holds_alternative<geometry::Cone>(shape) || std::holds_alternative<geometry::Cylinder>(shape)) return 3;  // wall, base, top
+    return geometry::parts(shape);
+}
+
+// Where points of an instance can be: its box, grown by as much again, so that no rounding nor tolerance leads out of it.
+Bounds reach_of(const Bounds& box) {
+    if (!box.bounded()) return Bounds::everything();
+    const double margin = length(box.diagonal()) + 1e-6 * box.largest_coordinate();
+    return {box.lower - Vec3{margin, margin, margin}, box.upper + Vec3{margin, margin, margin}};
+}
+
+class TileCheck {
+public:
+    TileCheck(const Tile& tile, const World& world, std::span<const Stage> stages) : tile_(tile), world_(world), stages_(stages) {
+        for (std::size_t i = 0; i < world.instances.size(); ++i) {
+            primitives_.push_back(primitives(*world.instances[i].shape));
+            reaches_.push_back(reach_of(world.boxes[i]));
+        }
+    }
+
+    std::string run() const {
+        if (!progress_holds()) return "says it is farther than it is";
+        if (tile_.corners.empty()) return is_blank() ? "" : "has trees without roots";
+        if (!nodes_hold()) return "has a node that is no part of a tree, or of nothing in the scene";
+        if (!roots_hold()) return "has a pixel corner without a tree";
+        if (!shares_hold()) return "has light that nobody knows of";
+        if (!rays_hold(tile_.pending) || !rays_hold(tile_.growing)) return "has rays that come from nowhere";
+        if (!quads_hold(tile_.quads, false) || !quads_hold(tile_.quads_before, true)) return "has pixels whose parts do not fit";
+        if (!stopped_soundly()) return "was stopped where it cannot have been";
+        return "";
+    }
+
+private:
+    std::size_t pixel_count() const { return static_cast<std::size_t>(tile_.width) * static_cast<std::size_t>(tile_.height); }
+    bool is_root(std::uint32_t i) const { return i < tile_.nodes.size() && tile_.nodes[i].parent == no_node; }
+    bool is_root_or_none(std::uint32_t i) const { return i == no_node || is_root(i); }
+    int first_stage_after(scene::Level level) const {
+        return static_cast<int>(std::count_if(stages_.begin(), stages_.end(), [&](const Stage& s) { return s.level <= level; }));
+    }
+
+    bool progress_holds() const {
+        const int all = static_cast<int>(stages_.size());
+        if (tile_.stage < 0 || tile_.stage > all || tile_.pixels_stage < -1 || tile_.pixels_stage > all) return false;
+        if (!tile_.pixels.empty() && tile_.pixels.size() != pixel_count()) return false;
+        // What waits for its light gets it from the stage of shadows.
+        const int visible = first_stage_after(scene::Level::visible);
+        if (!tile_.lit && (visible == all || tile_.stage > visible)) return false;
+        return !tile_.shows_pixels() || (!tile_.pixels.empty() && tile_.pixels_stage >= 0);
+    }
+    bool is_blank() const {
+        return tile_.nodes.empty() && tile_.shares.empty() && tile_.filtered.empty() && tile_.straight.empty() && tile_.pending.empty() && tile_.growing.empty() &&
+               tile_.quads.empty() && tile_.quads_before.empty() && tile_.subpixel_roots.empty() && tile_.todo.empty() && tile_.stage == 0 && tile_.cursor == 0;
+    }
+
+    bool nodes_hold() const {
+        if (tile_.nodes.size() >= no_node) return false;
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            if (!ends_somewhere(tile_.nodes[i]) || !has_its_place(i)) return false;
+        }
+        return std::all_of(tile_.straight.begin(), tile_.straight.end(), [&](const auto& entry) { return is_child(entry.second, entry.first); });
+    }
+    bool ends_somewhere(const Node& node) const {
+        if (!math::is_finite(node.position) || !is_finite(node.normal) || !std::isfinite(node.offset)) return false;
+        if (node.material >= world_.lobes.size()) return false;
+        if (node.left_scene()) return true;
+        if (node.instance >= world_.instances.size() || node.primitive >= primitives_[node.instance]) return false;
+        const Bounds& reach = reaches_[node.instance];
+        return max(reach.lower, min(node.position, reach.upper)) == node.position;
+    }
+    // Depths make sure that no way up is longer than they can count.
+    bool has_its_place(std::uint32_t i) const {
+        const Node& node = tile_.nodes[i];
+        for (const std::uint32_t child : {node.reflected, node.refracted}) {
+            if (child != no_node && !is_child(child, i)) return false;
+        }
+        if (node.parent == no_node) return node.depth == 0;
+        return node.parent < i && !tile_.nodes[node.parent].left_scene() && node.depth == tile_.nodes[node.parent].depth + 1;
+    }
+    bool is_child(std::uint32_t child, std::uint32_t parent) const { return child < tile_.nodes.size() && tile_.nodes[child].parent == parent; }
+
+    bool roots_hold() const {
+        if (tile_.corners.size() != static_cast<std::size_t>(tile_.width + 1) * static_cast<std::size_t>(tile_.height + 1)) return false;
+        const bool all_there = tile_.stage >= first_stage_after(scene::Level::visible);
+        if (!std::all_of(tile_.corners.begin(), tile_.corners.end(), [&](std::uint32_t i) { return is_root(i) || (i == no_node && !all_there); })) return false;
+        return std::all_of(tile_.subpixel_roots.begin(), tile_.subpixel_roots.end(), [&](const auto& entry) {
+            const LatticePoint p = point_of(entry.first);
+            const auto within = [](std::uint32_t at, int first, int extent) {
+                return at >= static_cast<std::uint32_t>(first) << subpixel_bits && at <= static_cast<std::uint32_t>(first + extent) << subpixel_bits;
+            };
+            return is_root(entry.second) && within(p.x, tile_.x0, tile_.width) && within(p.y, tile_.y0, tile_.height);
+        });
+    }
+
+    bool shares_hold() const {
+        const std::size_t lights = world_.lights.size();
+        if (tile_.shares.size() > tile_.nodes.size() * lights || (lights > 0 && tile_.shares.size() % lights != 0)) return false;
+        for (std::size_t key = 0; key < tile_.shares.size(); ++key) {
+            if (tile_.shares[key] > Share::filtered) return false;
+            if (tile_.shares[key] == Share::filtered && !tile_.filtered.contains(key)) return false;
+        }
+        return std::all_of(tile_.filtered.begin(), tile_.filtered.end(), [&](const auto& entry) { return entry.first < tile_.shares.size(); });
+    }
+
+    bool rays_hold(const std::vector<Pending>& rays) const {
+        return std::all_of(rays.begin(), rays.end(), [&](const Pending& p) {
+            return p.parent < tile_.nodes.size() && !tile_.nodes[p.parent].left_scene() && tile_.nodes[p.parent].depth < 255;
+        });
+    }
+
+    // Parts come after what they are parts of, four by four, and belong to one quad only: nothing that goes down them goes in circles or multiplies.
+    bool quads_hold(const std::vector<Quad>& quads, bool roots_may_be_lost) const {
+        if (quads.empty()) return true;
+        const std::size_t pixels = pixel_count();
+        if (quads.size() < pixels || (quads.size() - pixels) % 4 != 0) return false;
+        std::vector<std::uint8_t> depth(quads.size());
+        std::vector<std::uint8_t> belongs(quads.size());
+        std::fill_n(belongs.begin(), pixels, 1);
+        for (std::size_t i = 0; i < quads.size(); ++i) {
+            // What once was a part and no longer is may have lost its roots.
+            const bool whole = belongs[i] && !roots_may_be_lost;
+            for (const std::uint32_t root : quads[i].corners) {
+                if (whole ? !is_root(root) : !is_root_or_none(root)) return false;
+            }
+            const std::size_t parts = quads[i].parts;
+            if (parts == no_node) continue;
+            if (parts < pixels || parts <= i || parts + 3 >= quads.size() || (parts - pixels) % 4 != 0 || belongs[parts] || depth[i] + 1 >= subpixel_bits) return false;
+            for (std::size_t k = 0; k < 4; ++k) belongs[parts + k] = belongs[i], depth[parts + k] = static_cast<std::uint8_t>(depth[i] + 1);
+        }
+        return true;
+    }
+
+    bool stopped_soundly() const {
+        if (tile_.cursor == 0) return tile_.growing.empty();
+        if (tile_.stage == static_cast<int>(stages_.size())) return false;
+        const Stage& stage = stages_[static_cast<std::size_t>(tile_.stage)];
+        if (stage.level == scene::Level::edges) return can_go_on(tile_, stage);
+        return tile_.growing.empty() && tile_.cursor <= tile_.nodes.size();
+    }
+
+    const Tile& tile_;
+    const World& world_;
+    std::span<const Stage> stages_;
+    std::vector<std::uint32_t> primitives_;  // by instance
+    std::vector<Bounds> reaches_;            // by instance
+};
+
+}  // namespace
+
+std::string tile_problem(const Tile& tile, const World& world, std::span<const Stage> stages) { return TileCheck(tile, world, stages).run(); }
+
+}  // namespace crescente::render
