@@ -2,13 +2,15 @@
 // of the time that counts.
 //
 // Counters: `edit` is what Session::edit takes, `first` from before it to the picture after the first quantum of work, both ms; `tiles` those that the edit
-// touched, `rays` those traced after it.
+// touched, `rays` those traced after it, `GB/s` the bytes of the trees of those tiles (about) over the whole time, to be compared with what the machine reads
+// and writes ("memory").
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 #include <functional>
 #include <map>
 
+#include "parallel/pool.h"
 #include "render/session.h"
 #include "scenes.h"
 
@@ -25,6 +27,26 @@ double milliseconds_since(Clock::time_point start) { return std::chrono::duratio
 double rays_of(const render::Session& session) {
     const render::RayCounts rays = session.stats().rays;
     return static_cast<double>(rays.camera + rays.reflected + rays.refracted + rays.shadow);
+}
+
+double tile_count(const scene::Settings& s) { return double((s.width + s.tile - 1) / s.tile) * double((s.height + s.tile - 1) / s.tile); }
+
+// Each byte of as much memory as a forest takes is read and written, by two threads.
+void memory(benchmark::State& state) {
+    std::vector<std::uint64_t> words(std::size_t{64} << 20);
+    parallel::Pool pool(2);
+    constexpr std::size_t pieces = 64;
+    for (auto _ : state) {
+        const auto start = Clock::now();
+        pool.for_each(pieces, [&](std::size_t piece) {
+            const std::size_t size = words.size() / pieces;
+            for (std::size_t i = piece * size; i < (piece + 1) * size; ++i) words[i] = words[i] * 3 + 1;
+        });
+        benchmark::ClobberMemory();
+        const double seconds = milliseconds_since(start) / 1000;
+        state.SetIterationTime(seconds);
+        state.counters["GB/s"] = 1e-9 * static_cast<double>(words.size() * sizeof words[0]) / seconds;
+    }
 }
 
 // Which index in the layer covers the share of the picture that comes next to the one wanted.
@@ -112,7 +134,11 @@ void edited(benchmark::State& state, render::Session& session, std::vector<Edit>
         session.advance(render::Deadline::never());
         state.SetIterationTime(milliseconds_since(start) / 1000);
         state.counters["rays"] = rays_of(session) - before;
-        state.counters["tiles"] = static_cast<double>(session.stats().revised_tiles - revised);
+        const render::Stats stats = session.stats();
+        const auto tiles = static_cast<double>(stats.revised_tiles - revised);
+        state.counters["tiles"] = tiles;
+        const double seconds = milliseconds_since(start) / 1000;
+        state.counters["GB/s"] = 1e-9 * static_cast<double>(stats.forest_bytes) * tiles / tile_count(session.scene().settings) / seconds;
         (void)session.edit(std::move(report.undo)).value();
         session.advance(render::Deadline::never());
     }
@@ -149,6 +175,7 @@ int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
     using namespace crescente::bench;
+    benchmark::RegisterBenchmark("memory", memory)->UseManualTime()->Iterations(5)->Unit(benchmark::kMillisecond);
     add("balls4", load("balls4.nff"));
     const std::string assembly = "../../shared/assets/cad/02_as1_pe_203.stp";
     if (std::filesystem::exists(root() + "/scenes/" + assembly)) add("as1 (CAD)", load(assembly));
