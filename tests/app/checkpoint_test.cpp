@@ -103,7 +103,14 @@ TEST_F(Checkpoint, WhatDoesNotFitIsRefusedOrBegunAfreshIfToldSo) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_TRUE(contains(outcome.err, "is of another scene: it differs in camera"));
 
-    std::string damaged = read(path("c"));
+    const std::string sound = read(path("c"));
+    std::string damaged = sound;
+    damaged[17] = 9;  // the version, which the head is refused by before the model is read
+    write("c", damaged);
+    outcome = render("a.png", {"--checkpoint", path("c"), "--resume"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(contains(outcome.err, "is a checkpoint of version 9, this program reads version 1 (--resume --fresh begins afresh and replaces it)"));
+    damaged = sound;
     damaged[damaged.size() / 2] ^= 4;
     write("c", damaged);
     outcome = render("a.png", {"--checkpoint", path("c"), "--resume"});
