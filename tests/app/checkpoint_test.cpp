@@ -140,6 +140,23 @@ TEST_F(Checkpoint, AFullDiskDoesNotEndTheRender) {
     EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "c", "first.png", "whole.png"}));
 }
 
+// One tile of a million pixels: there is memory for its trees, but not for their bytes besides.
+TEST_F(Checkpoint, TooLittleMemoryDoesNotEndTheRender) {
+    const std::vector<std::string> large{"--size", "1200x1200", "--level", "0", "--threads", "1", "--set", "settings.order=even", "--set", "settings.tile=4096"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), large.begin(), large.end());
+        return more;
+    };
+    ASSERT_EQ(render("whole.png", large).code, 0);
+    ASSERT_EQ(render("first.png", {"--size", "16x16", "--level", "0", "--checkpoint", path("c")}).code, 0);
+    const std::string old = read(path("c"));
+    const Outcome outcome = render("a.png", with({"--checkpoint", path("c"), "--fresh"}), {.memory = rlim_t{600} << 20});
+    EXPECT_EQ(outcome.code, 6);
+    EXPECT_TRUE(contains(outcome.err, "c: cannot be written: not enough memory"));
+    EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
+    EXPECT_EQ(read(path("c")), old);
+}
+
 // --- Scripts of edits
 
 const std::string primitives = (scenes / "primitives.json").string();
