@@ -103,7 +103,14 @@ TEST_F(Checkpoint, WhatDoesNotFitIsRefusedOrBegunAfreshIfToldSo) {
     EXPECT_EQ(outcome.code, 3);
     EXPECT_TRUE(contains(outcome.err, "is of another scene: it differs in camera"));
 
-    std::string damaged = read(path("c"));
+    const std::string sound = read(path("c"));
+    std::string damaged = sound;
+    damaged[17] = 9;  // the version, which the head is refused by before the model is read
+    write("c", damaged);
+    outcome = render("a.png", {"--checkpoint", path("c"), "--resume"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_TRUE(contains(outcome.err, "is a checkpoint of version 9, this program reads version 1 (--resume --fresh begins afresh and replaces it)"));
+    damaged = sound;
     damaged[damaged.size() / 2] ^= 4;
     write("c", damaged);
     outcome = render("a.png", {"--checkpoint", path("c"), "--resume"});
@@ -131,6 +138,23 @@ TEST_F(Checkpoint, AFullDiskDoesNotEndTheRender) {
     EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
     EXPECT_EQ(read(path("c")), old);
     EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "c", "first.png", "whole.png"}));
+}
+
+// One tile of a million pixels: there is memory for its trees, but not for their bytes besides.
+TEST_F(Checkpoint, TooLittleMemoryDoesNotEndTheRender) {
+    const std::vector<std::string> large{"--size", "1200x1200", "--level", "0", "--threads", "1", "--set", "settings.order=even", "--set", "settings.tile=4096"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), large.begin(), large.end());
+        return more;
+    };
+    ASSERT_EQ(render("whole.png", large).code, 0);
+    ASSERT_EQ(render("first.png", {"--size", "16x16", "--level", "0", "--checkpoint", path("c")}).code, 0);
+    const std::string old = read(path("c"));
+    const Outcome outcome = render("a.png", with({"--checkpoint", path("c"), "--fresh"}), {.memory = rlim_t{600} << 20});
+    EXPECT_EQ(outcome.code, 6);
+    EXPECT_TRUE(contains(outcome.err, "c: cannot be written: not enough memory"));
+    EXPECT_EQ(pixels("a.png"), pixels("whole.png"));
+    EXPECT_EQ(read(path("c")), old);
 }
 
 // --- Scripts of edits

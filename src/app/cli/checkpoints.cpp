@@ -1,6 +1,7 @@
 #include "app/cli/checkpoints.h"
 
 #include <filesystem>
+#include <system_error>
 
 #include "app/cli/quantities.h"
 #include "app/cli/report.h"
@@ -8,6 +9,21 @@
 #include "base/atomic_file.h"
 
 namespace crescente::app {
+namespace {
+
+bool is_there(const std::string& file) {
+    std::error_code code;
+    return std::filesystem::exists(file, code);
+}
+
+Error with_way_out(Error error) {
+    for (Problem& problem : error.problems) {
+        if (problem.hint.empty()) problem.hint = "--resume --fresh begins afresh and replaces it";
+    }
+    return error;
+}
+
+}  // namespace
 
 void add_checkpoint_options(CLI::App& command, CheckpointOptions& options) {
     command.add_option("--checkpoint", options.file, "Keep the state of the render in this file, every minute and at the end")->option_text("FILE");
@@ -35,7 +51,7 @@ Expected<CheckpointRequest> understand(const CheckpointOptions& options) {
 Expected<void> check(const CheckpointRequest& request) {
     if (request.file.empty()) return {};
     if (auto writable = can_write_file(request.file); !writable) return writable;
-    if (!std::filesystem::exists(request.file)) {
+    if (!is_there(request.file)) {
         if (!request.resume || request.fresh) return {};
         return failure(ErrorKind::input, {request.file, "", "there is no such checkpoint", "--resume --fresh begins afresh where there is none"});
     }
@@ -46,16 +62,11 @@ Expected<void> check(const CheckpointRequest& request) {
     if (!request.resume) {
         return failure(ErrorKind::output, {request.file, "", "there is a checkpoint already", "--resume goes on from it, --fresh begins afresh and replaces it"});
     }
-    return render::read_checkpoint_head(request.file).map([](const render::CheckpointHead&) {});
+    return render::read_checkpoint_head(request.file).map([](const render::CheckpointHead&) {}).map_error(with_way_out);
 }
 
 Expected<void> Checkpoints::refuse(Error error) {
-    if (!request_.fresh) {
-        for (Problem& problem : error.problems) {
-            if (problem.hint.empty()) problem.hint = "--resume --fresh begins afresh and replaces it";
-        }
-        return tl::unexpected(std::move(error));
-    }
+    if (!request_.fresh) return tl::unexpected(with_way_out(std::move(error)));
     warn(error.problems);
     note("begins afresh: " + request_.file + " will be replaced");
     request_.resume = false;
@@ -63,7 +74,7 @@ Expected<void> Checkpoints::refuse(Error error) {
 }
 
 Expected<std::optional<render::CheckpointHead>> Checkpoints::head() {
-    if (!request_.resume || (request_.fresh && !std::filesystem::exists(request_.file))) return std::nullopt;
+    if (!request_.resume || (request_.fresh && !is_there(request_.file))) return std::nullopt;
     auto head = render::read_checkpoint_head(request_.file);
     if (head) return std::move(*head);
     return refuse(std::move(head.error())).map([] { return std::optional<render::CheckpointHead>(); });
@@ -71,7 +82,7 @@ Expected<std::optional<render::CheckpointHead>> Checkpoints::head() {
 
 Expected<void> Checkpoints::begin(render::Session& session) {
     const auto start = last_ = Clock::now();
-    if (!request_.resume || (request_.fresh && !std::filesystem::exists(request_.file))) return {};
+    if (!request_.resume || (request_.fresh && !is_there(request_.file))) return {};
     if (auto restored = session.restore(request_.file); !restored) return refuse(std::move(restored.error()));
     resumed_ = true;
     rays_before_ = session.stats().rays;
