@@ -13,6 +13,7 @@ namespace crescente::math {
 
 inline constexpr int lane_count = 8;
 using Lanes = double __attribute__((vector_size(lane_count * sizeof(double))));
+using FloatLanes = float __attribute__((vector_size(lane_count * sizeof(float))));
 using LaneMask = decltype(Lanes{} < Lanes{});  // all bits set where true
 
 inline double absolute(double x) { return std::abs(x); }
@@ -86,6 +87,20 @@ inline Lanes blend(unsigned lanes, const Lanes& a, const Lanes& b) {
     return result;
 #endif
 }
+
+inline FloatLanes blend(unsigned lanes, const FloatLanes& a, const FloatLanes& b) {
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+    return reinterpret_cast<FloatLanes>(_mm256_mask_blend_ps(static_cast<__mmask8>(lanes), reinterpret_cast<__m256>(b), reinterpret_cast<__m256>(a)));
+#else
+    FloatLanes result = b;
+    for (int i = 0; i < lane_count; ++i) result[i] = lanes >> i & 1 ? a[i] : b[i];
+    return result;
+#endif
+}
+
+// Each rounded to the nearest, as static_cast does.
+inline FloatLanes to_floats(const Lanes& x) { return __builtin_convertvector(x, FloatLanes); }
+inline Lanes to_doubles(const FloatLanes& x) { return __builtin_convertvector(x, Lanes); }
 
 // Of the lanes whose bit is set; infinite if there is none.
 inline double least(const Lanes& x, unsigned lanes) {

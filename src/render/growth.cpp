@@ -151,63 +151,105 @@ void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence
 void Growth::light_points(bool shadows, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
-    for (PointLanes& p : points_) {
-        p.physical = 0;
-        for (int i = 0; i < p.count; ++i) {
-            Node& node = tile_.nodes[p.node[i]];
-            const Lobes& lobes = world_.lobes[node.material];
-            p.lobes[i] = &lobes;
-            if (lobes.layered()) {
-                p.physical |= 1u << i;
-                set_lane(p.view, i, physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i))));
-            }
-            p.sum[i] = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
-            node.shadowed = node.shadowed || shadows;
+    for (PointLanes& p : points_) begin_light(p, shadows);
+    if (shadows && std::any_of(points_.begin(), points_.end(), [&](const PointLanes& p) { return any_untried(p); })) {
+        for (std::size_t l = 0; l < lights; ++l) {
+            if (is_black(world_.lights[l].color())) continue;
+            for (PointLanes& p : points_) aim(p, l);
+            if (world_.lights[l].casts_shadows()) trace_shadows(l, coherence);
+            for (PointLanes& p : points_) add_light(p, l);
         }
-    }
-    for (std::size_t l = 0; l < lights; ++l) {
-        const Light& light = world_.lights[l];
-        if (is_black(light.color())) continue;
+    } else {  // nothing to trace: all lights of the same points, while these are in the cache
         for (PointLanes& p : points_) {
-            p.lit = 0;
-            for (int i = 0; i < p.count; ++i) p.lit |= may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + l]) ? 1u << i : 0u;
-            if (!p.lit) continue;
-            p.reach = light.reach(p.position);
-            p.cosine = dot(p.normal, p.reach.to_light);
-            p.lit &= bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0));
-        }
-        if (shadows && light.casts_shadows()) trace_shadows(l, coherence);
-        for (PointLanes& p : points_) {
-            for (unsigned rest = p.lit; rest; rest &= rest - 1) {
-                const int i = __builtin_ctz(rest);
-                if (!may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + l])) p.lit &= ~(1u << i);
-            }
-            if (!p.lit) continue;
-            Lanes radiance[3];
-            if (const unsigned physical = p.lit & p.physical) {
-                Lanes layer_kept{};
-                for (unsigned rest = physical; rest; rest &= rest - 1) {
-                    const int i = __builtin_ctz(rest);
-                    if (p.view.layer_kept[i] > 0) layer_kept[i] = layer_reflectance(*p.lobes[i], p.cosine[i]);
-                }
-                reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer_kept, light.makes_highlights(), radiance);
-            }
-            for (unsigned rest = p.lit; rest; rest &= rest - 1) {
-                const int i = __builtin_ctz(rest);
-                const std::size_t key = std::size_t{p.node[i]} * lights + l;
-                Rgb strength = light.color() * static_cast<float>(p.reach.factor[i]);
-                if (tile_.shares[key] == Share::filtered) strength *= tile_.filtered.at(key);
-                if (p.physical >> i & 1) {
-                    p.sum[i] += strength * Rgb{static_cast<float>(radiance[0][i]), static_cast<float>(radiance[1][i]), static_cast<float>(radiance[2][i])};
-                } else {
-                    p.sum[i] += strength * reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i],
-                                                         light.makes_highlights());
-                }
+            for (std::size_t l = 0; l < lights; ++l) {
+                if (is_black(world_.lights[l].color())) continue;
+                aim(p, l);
+                if (shadows && world_.lights[l].casts_shadows()) leave_out_of_reach(p, l);
+                add_light(p, l);
             }
         }
     }
     for (const PointLanes& p : points_) {
-        for (int i = 0; i < p.count; ++i) tile_.nodes[p.node[i]].local = p.sum[i];
+        for (int i = 0; i < p.count; ++i) tile_.nodes[p.node[i]].local = {p.sum[0][i], p.sum[1][i], p.sum[2][i]};
+    }
+}
+
+// Light without that of lamps.
+void Growth::begin_light(PointLanes& p, bool shadows) {
+    p.physical = p.layered = 0;
+    for (int i = 0; i < p.count; ++i) {
+        Node& node = tile_.nodes[p.node[i]];
+        const Lobes& lobes = world_.lobes[node.material];
+        p.lobes[i] = &lobes;
+        if (lobes.layered()) {
+            p.physical |= 1u << i;
+            const PhysicalView<double> view = physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i)));
+            set_lane(p.view, i, view);
+            if (view.layer_kept > 0) p.layered |= 1u << i;
+        }
+        const Rgb sum = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
+        p.sum[0][i] = sum.r, p.sum[1][i] = sum.g, p.sum[2][i] = sum.b;
+        node.shadowed = node.shadowed || shadows;
+    }
+}
+
+bool Growth::any_untried(const PointLanes& p) const {
+    const std::size_t lights = world_.lights.size();
+    return std::any_of(p.node, p.node + p.count, [&](std::uint32_t node) {
+        const Share* first = tile_.shares.data() + node * lights;
+        return std::find(first, first + lights, Share::untried) != first + lights;
+    });
+}
+
+// Where the light stands, and which of the points it reaches if nothing is in its way that is not known yet.
+void Growth::aim(PointLanes& p, std::size_t light) const {
+    const std::size_t lights = world_.lights.size();
+    p.lit = 0;
+    for (int i = 0; i < p.count; ++i) p.lit |= may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + light]) ? 1u << i : 0u;
+    if (!p.lit) return;
+    p.reach = world_.lights[light].reach(p.position);
+    p.cosine = dot(p.normal, p.reach.to_light);
+    p.lit &= bits_of((p.cosine > 0.0) & (p.reach.factor > 0.0));
+}
+
+void Growth::leave_out_of_reach(const PointLanes& p, std::size_t light) {
+    const std::size_t lights = world_.lights.size();
+    for (int i = 0; i < p.count; ++i) {
+        Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
+        if (!(p.lit >> i & 1) && may_arrive(share)) share = Share::behind;
+    }
+}
+
+void Growth::add_light(PointLanes& p, std::size_t l) const {
+    const std::size_t lights = world_.lights.size();
+    const Light& light = world_.lights[l];
+    unsigned filtered = 0;
+    for (unsigned rest = p.lit; rest; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const Share share = tile_.shares[std::size_t{p.node[i]} * lights + l];
+        if (!may_arrive(share)) p.lit &= ~(1u << i);
+        else if (share == Share::filtered) filtered |= 1u << i;
+    }
+    if (!p.lit) return;
+    Lanes radiance[3]{};
+    if (const unsigned physical = p.lit & p.physical) {
+        const unsigned layered = physical & p.layered;
+        const Lanes layer_kept = layered ? blend(layered, layer_reflectance(p.lobes, layered, p.view.layer_f0, p.cosine), Lanes{}) : Lanes{};
+        reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer_kept, light.makes_highlights(), radiance);
+    }
+    for (unsigned rest = p.lit & ~p.physical; rest; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const Rgb one = reflect_light(*p.lobes[i], lane(p.normal, i), lane(p.viewer, i), lane(p.reach.to_light, i), p.cosine[i], light.makes_highlights());
+        radiance[0][i] = one.r, radiance[1][i] = one.g, radiance[2][i] = one.b;
+    }
+    const FloatLanes factor = to_floats(p.reach.factor);
+    for (int k = 0; k < 3; ++k) {
+        FloatLanes strength = light.color()[k] * factor;
+        for (unsigned rest = filtered; rest; rest &= rest - 1) {
+            const int i = __builtin_ctz(rest);
+            strength[i] *= tile_.filtered.at(std::size_t{p.node[i]} * lights + l)[k];
+        }
+        p.sum[k] = blend(p.lit, p.sum[k] + strength * to_floats(radiance[k]), p.sum[k]);
     }
 }
 

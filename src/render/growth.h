@@ -73,7 +73,8 @@ private:
         const Lobes* lobes[lane_count];
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
-        Rgb sum[lane_count];
+        unsigned layered;             // of those, lanes with light below their layer
+        FloatLanes sum[3];            // radiance so far, by channel
         // Of the current light:
         Reach<Lanes> reach;
         Lanes cosine;
@@ -82,6 +83,11 @@ private:
     void append();
     void gather(std::span<const std::uint32_t> nodes);
     void light_points(bool shadows, accel::Coherence coherence);
+    void begin_light(PointLanes& points, bool shadows);
+    bool any_untried(const PointLanes& points) const;
+    void aim(PointLanes& points, std::size_t light) const;
+    void leave_out_of_reach(const PointLanes& points, std::size_t light);
+    void add_light(PointLanes& points, std::size_t light) const;
     void spawn_from_points(std::vector<Pending>& pending);
     bool occluded_as_last(std::size_t light, std::uint8_t depth, const geometry::Ray& ray);
     void trace_shadows(std::size_t light, accel::Coherence coherence);

@@ -15,6 +15,14 @@ inline double layer_reflectance(const Lobes& lobes, double cosine) {
     return double(sum.scale) * lobes.layer_f0 + sum.bias;
 }
 
+// The same for eight points, each of its own lobes, to the bit. Lanes whose bit is not set have any value.
+inline Lanes layer_reflectance(const Lobes* const (&lobes)[lane_count], unsigned lanes, const Lanes& layer_f0, const Lanes& cosine) {
+    const SplitSums* sums[lane_count] = {};
+    for (unsigned rest = lanes; rest; rest &= rest - 1) sums[__builtin_ctz(rest)] = &lobes[__builtin_ctz(rest)]->sums;
+    const SplitSumLanes sum = split_sum(sums, lanes, cosine);
+    return to_doubles(sum.scale) * layer_f0 + to_doubles(sum.bias);
+}
+
 template <class T>
 struct PhysicalView {
     T facing;          // cosine between normal and viewer

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "math/vec.h"
+#include "math/vec_lanes.h"
 
 namespace crescente::render {
 namespace {
@@ -50,6 +51,22 @@ SplitSum split_sum(const SplitSums& sums, double cosine) {
     const auto i = std::min(static_cast<std::size_t>(place), sums.size() - 2);
     const auto t = static_cast<float>(place - static_cast<double>(i));
     return {sums[i].scale + (sums[i + 1].scale - sums[i].scale) * t, sums[i].bias + (sums[i + 1].bias - sums[i].bias) * t};
+}
+
+SplitSumLanes split_sum(const SplitSums* const (&sums)[lane_count], unsigned lanes, const Lanes& cosine) {
+    const Lanes zero{}, one = zero + 1.0;
+    const Lanes place = last * square_root(lesser(greater(cosine, zero), one));
+    Lanes first{};
+    SplitSumLanes low, high;
+    for (unsigned rest = lanes; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        const auto i = std::min(static_cast<int>(place[lane]), static_cast<int>(last) - 1);
+        const SplitSum* entry = sums[lane]->data() + i;
+        first[lane] = i;
+        low.scale[lane] = entry[0].scale, low.bias[lane] = entry[0].bias, high.scale[lane] = entry[1].scale, high.bias[lane] = entry[1].bias;
+    }
+    const FloatLanes t = to_floats(place - first);
+    return {low.scale + (high.scale - low.scale) * t, low.bias + (high.bias - low.bias) * t};
 }
 
 }  // namespace crescente::render

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "math/lanes.h"
+
 namespace crescente::render {
 
 // Reflectance = scale * f0 + bias; scale and bias >= 0, their sum <= 1 (less for rough surfaces: light that goes on between facets is lost).
@@ -20,5 +22,11 @@ SplitSums split_sums(double alpha);
 
 // At a cosine from 0 to 1, by linear interpolation.
 SplitSum split_sum(const SplitSums& sums, double cosine);
+
+// The same for eight sums, each at its own cosine, to the bit. Lanes whose bit is not set have any value.
+struct SplitSumLanes {
+    math::FloatLanes scale{}, bias{};
+};
+SplitSumLanes split_sum(const SplitSums* const (&sums)[math::lane_count], unsigned lanes, const math::Lanes& cosine);
 
 }  // namespace crescente::render
