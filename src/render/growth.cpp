@@ -223,6 +223,23 @@ bool Growth::occluded_as_last(std::size_t light, std::uint8_t depth, const Ray& 
     return hit.found();
 }
 
+// From eight points to the light that p.reach is of.
+void Growth::make_shadow_rays(const PointLanes& p, Ray* rays) {
+    // Short of a surface that the lamp lies in.
+    make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
+}
+
+std::span<const Ray> Growth::shadow_rays(std::span<const std::uint32_t> nodes, std::size_t light) {
+    gather(nodes);
+    rays_.resize(points_.size() * lane_count);
+    for (std::size_t block = 0; block < points_.size(); ++block) {
+        points_[block].reach = world_.lights[light].reach(points_[block].position);
+        make_shadow_rays(points_[block], &rays_[block * lane_count]);
+    }
+    rays_.resize(nodes.size());
+    return rays_;
+}
+
 void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     accel::TestCounts counts;
@@ -238,8 +255,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         }
         if (!untried) continue;
         alignas(64) Ray rays[lane_count];
-        // Short of a surface that the lamp lies in.
-        make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
+        make_shadow_rays(p, rays);
         tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(untried));
         for (unsigned rest = untried; rest; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
@@ -300,14 +316,11 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) {
     }
 }
 
-void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) {
-    const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
+std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
     parents_.clear();
     for (const Pending& p : pending) parents_.push_back(p.parent);
     gather(parents_);
     rays_.resize((pending.size() + lane_count - 1) / lane_count * lane_count);
-    seeds_.clear();
-    bool coherent = true;
     for (std::size_t block = 0; block < points_.size(); ++block) {
         const PointLanes& p = points_[block];
         const Lanes cosine = dot(p.normal, p.viewer);
@@ -322,8 +335,6 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
                 eta[i] = node.inside ? lobes.ior : 1 / lobes.ior;
             }
             if (from.way == Way::straight) straight |= 1u << i;
-            seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(node.depth + 1), from.way != Way::reflected});
-            coherent = coherent && node.depth == 0;
         }
         Vec3Lanes direction = normalize(p.normal * (2.0 * cosine) - p.viewer);
         // Interpolated normals can send a reflection into the surface: lift it to just above.
@@ -337,11 +348,22 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         if (straight) direction = blend(straight, -p.viewer, direction);
         make_rays(starts(p.position, p.geometric, p.offset, direction), direction, Lanes{} + std::numeric_limits<double>::infinity(),
                   &rays_[block * lane_count]);
-        const int through = __builtin_popcount(refracted | straight);
-        tile_.rays.refracted += static_cast<unsigned>(through);
-        tile_.rays.reflected += static_cast<unsigned>(p.count - through);
     }
     rays_.resize(pending.size());
+    return rays_;
+}
+
+void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) {
+    const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
+    child_rays(pending);
+    seeds_.clear();
+    bool coherent = true;
+    for (const Pending& from : pending) {
+        const std::uint8_t depth = tile_.nodes[from.parent].depth;
+        seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(depth + 1), from.way != Way::reflected});
+        coherent = coherent && depth == 0;
+        ++(from.way == Way::reflected ? tile_.rays.reflected : tile_.rays.refracted);
+    }
     hits_.resize(rays_.size());
     accel::TestCounts counts;
     const Coherence coherence = coherent ? Coherence::coherent : Coherence::incoherent;

@@ -5,16 +5,6 @@
 namespace crescente::render {
 namespace {
 
-Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings) {
-    switch (settings.accelerator) {
-        case scene::AcceleratorKind::linear: return accel::make_linear(instances);
-        case scene::AcceleratorKind::kay_kajiya:
-            return accel::make_kay_kajiya(instances, {settings.octant_rejection, settings.priority_queue});
-        case scene::AcceleratorKind::embree: break;
-    }
-    return accel::make_embree(instances);
-}
-
 // All but the accelerator.
 void derive(World& world) {
     const scene::Scene& s = world.scene;
@@ -66,6 +56,16 @@ std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
     derive(*world);
     return world;
+}
+
+Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings) {
+    switch (settings.accelerator) {
+        case scene::AcceleratorKind::linear: return accel::make_linear(instances);
+        case scene::AcceleratorKind::kay_kajiya:
+            return accel::make_kay_kajiya(instances, {settings.octant_rejection, settings.priority_queue});
+        case scene::AcceleratorKind::embree: break;
+    }
+    return accel::make_embree(instances);
 }
 
 bool same_accelerator(const scene::Settings& a, const scene::Settings& b) {

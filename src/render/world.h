@@ -51,6 +51,9 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene);
 // The same for a scene whose shapes are prepared, without the accelerator.
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene);
 
+// An accelerator of the kind that the settings ask for. Error: it cannot be built.
+Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings);
+
 // Whether the settings ask for the same accelerator.
 bool same_accelerator(const scene::Settings& a, const scene::Settings& b);
 
