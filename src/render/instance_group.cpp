@@ -58,11 +58,41 @@ bool may_pass(const Bounds& box, const Bundle& bundle) {
     return !(from > to);  // boxes without an end give what compares with nothing
 }
 
+unsigned may_pass(const Bounds& box, const StretchLanes& stretches) {
+    constexpr double rounding = 1e-9;
+    const Vec3Lanes from = stretches.start - broadcast(box.center());
+    const Vec3 half_box = box.diagonal() * 0.5;
+    const Lanes margin = stretches.slack + rounding * (largest_component(stretches.start) + box.largest_coordinate());
+    const Vec3Lanes extent = broadcast(half_box) + Vec3Lanes{margin, margin, margin};
+    // Without an end is far enough for the whole box.
+    const Lanes far = (absolute(from.x) + absolute(from.y) + absolute(from.z) + (extent.x + extent.y + extent.z)) / largest_component(stretches.way);
+    const Vec3Lanes half = stretches.way * blend(stretches.endless, 0.5 * far, Lanes{} + 0.5);
+    const Vec3Lanes middle = from + half;
+    const Vec3Lanes size{absolute(half.x), absolute(half.y), absolute(half.z)};
+    const Vec3Lanes turned = cross(middle, half);
+    const LaneMask apart = (absolute(middle.x) > extent.x + size.x) | (absolute(middle.y) > extent.y + size.y) | (absolute(middle.z) > extent.z + size.z) |
+                           (absolute(turned.x) > extent.y * size.z + extent.z * size.y) | (absolute(turned.y) > extent.x * size.z + extent.z * size.x) |
+                           (absolute(turned.z) > extent.x * size.y + extent.y * size.x);
+    return ~bits_of(apart) & ((1u << lane_count) - 1);
+}
+
 InstanceGroup::InstanceGroup(std::span<const Bounds> boxes, std::vector<accel::Instance> instances, std::unique_ptr<accel::Accelerator> alone)
-    : boxes_(few_boxes(boxes)), instances_(std::move(instances)), alone_(std::move(alone)) {}
+    : boxes_(few_boxes(boxes)), instances_(std::move(instances)), alone_(std::move(alone)) {
+    for (const Bounds& box : boxes_) box_.include(box);
+}
 
 bool InstanceGroup::may_meet(const Bundle& bundle) const {
     return std::any_of(boxes_.begin(), boxes_.end(), [&](const Bounds& box) { return may_pass(box, bundle); });
+}
+
+unsigned InstanceGroup::may_meet(const StretchLanes& stretches) const {
+    constexpr unsigned all = (1u << lane_count) - 1;
+    if (!box_.bounded()) return all;
+    const unsigned near = may_pass(box_, stretches);
+    if (!near || boxes_.size() == 1) return near;
+    unsigned found = 0;
+    for (std::size_t i = 0; i < boxes_.size() && found != near; ++i) found |= near & may_pass(boxes_[i], stretches);
+    return found;
 }
 
 void InstanceGroup::meet(std::span<const geometry::Ray> rays, std::vector<Meeting>& meetings, accel::TestCounts& counts) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "accel/accelerator.h"
+#include "math/vec_lanes.h"
 
 namespace crescente::render {
 
@@ -26,8 +27,19 @@ Bundle between(const Bounds& start, const Bounds& end);
 // From points of a box in directions of another, without an end. Directions may have any length.
 Bundle toward(const Bounds& start, const Bounds& directions);
 
+// Eight single stretches, each from `start` by `way`, or in that direction without an end where the bit of `endless` is set. They may begin and end beside
+// these points, by `slack` at most in each coordinate.
+struct StretchLanes {
+    Vec3Lanes start, way;
+    Lanes slack;
+    unsigned endless = 0;
+};
+
 // False only if no stretch of the bundle passes the box, nor would with rounding errors of 1e-9 of the coordinates.
 bool may_pass(const Bounds& box, const Bundle& bundle);
+// The same for each of the eight, as bits. The box must be bounded. Separating axes of a segment and a box: no division, no branch (Gottschalk, Lin and
+// Manocha 1996, "OBBTree").
+unsigned may_pass(const Bounds& box, const StretchLanes& stretches);
 
 // What a ray meets of a group.
 enum class Meeting : std::uint8_t {
@@ -43,12 +55,14 @@ public:
     InstanceGroup(std::span<const Bounds> boxes, std::vector<accel::Instance> instances, std::unique_ptr<accel::Accelerator> alone);
 
     bool may_meet(const Bundle& bundle) const;
+    unsigned may_meet(const StretchLanes& stretches) const;  // bits of those that may
 
     // Tries rays against the instances alone. By ray: what the eye meets within its range, or what light does.
     void meet(std::span<const geometry::Ray> rays, std::vector<Meeting>& meetings, accel::TestCounts& counts) const;
     void meet_light(std::span<const geometry::Ray> rays, std::vector<Meeting>& meetings, accel::TestCounts& counts) const;
 
 private:
+    Bounds box_;                 // of all
     std::vector<Bounds> boxes_;  // few, that hold those of all instances
     std::vector<accel::Instance> instances_;
     std::unique_ptr<accel::Accelerator> alone_;

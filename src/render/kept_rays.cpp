@@ -7,43 +7,11 @@
 namespace crescente::render {
 namespace {
 
-// Nodes that are looked at together; neighbours in the list are mostly neighbours in the picture.
-constexpr std::uint32_t block_size = 64;
+// Lanes of nodes that are looked at together; neighbours in the list are mostly neighbours in the picture.
+constexpr std::size_t block_size = 8;
 
 // How far from a node, in its offsets, its ray may have ended: several times what rounding can do.
 constexpr double end_slack = 4;
-
-Bounds around(Vec3 point, double distance) {
-    const Vec3 beside = Vec3{1, 1, 1} * distance;
-    return {point - beside, point + beside};
-}
-
-// Where a node's ray ran.
-struct Stretch {
-    Bounds start;
-    Bounds end;    // or the direction, if
-    bool endless;  // it left the scene
-
-    Bundle bundle() const { return endless ? toward(start, end) : between(start, end); }
-};
-
-Stretch stretch_of(const Tile& tile, std::uint32_t i, Vec3 start, double beside) {
-    const Node& node = tile.nodes[i];
-    return {around(start, beside), around(node.position, node.left_scene() ? 0 : end_slack * node.offset), node.left_scene()};
-}
-
-// Boxes of several stretches.
-struct Stretches {
-    Bounds starts, ends, endless_starts, directions;
-
-    void include(const Stretch& s) {
-        (s.endless ? endless_starts : starts).include(s.start);
-        (s.endless ? directions : ends).include(s.end);
-    }
-    bool may_meet(const InstanceGroup& group) const {
-        return (!ends.empty() && group.may_meet(between(starts, ends))) || (!directions.empty() && group.may_meet(toward(endless_starts, directions)));
-    }
-};
 
 // Rays through any point of the tile.
 Bundle camera_bundle(const World& world, const Tile& tile) {
@@ -66,28 +34,24 @@ Way way_to(const Tile& tile, std::uint32_t child) {
 
 std::vector<std::uint32_t> KeptRays::that_meet(const InstanceGroup& group, const World& world) {
     const bool roots_may = group.may_meet(camera_bundle(world, tile_));
-    const auto nodes = static_cast<std::uint32_t>(tile_.nodes.size());
-    const auto stretch = [&](std::uint32_t i) {
-        const std::uint32_t parent = tile_.nodes[i].parent;
-        if (parent == no_node) return stretch_of(tile_, i, camera_ray(world, point_of(places_[i])).origin, 0);
-        return stretch_of(tile_, i, tile_.nodes[parent].position, tile_.nodes[parent].offset);
-    };
     std::vector<std::uint32_t> near;
-    std::vector<Stretch> own(block_size);
-    std::vector<std::uint32_t> block;
-    for (std::uint32_t first = 0; first < nodes; first += block_size) {
-        Stretches all;
-        block.clear();
-        for (std::uint32_t i = first; i < std::min(first + block_size, nodes); ++i) {
-            if (lost_[i] || (tile_.nodes[i].parent == no_node && !roots_may)) continue;
-            own[block.size()] = stretch(i);
-            all.include(own[block.size()]);
-            block.push_back(i);
+    for (std::uint32_t first = 0; first < tile_.nodes.size(); first += lane_count) {
+        StretchLanes ran{{}, {Lanes{} + 1.0, Lanes{}, Lanes{}}, {}, 0};
+        unsigned asked = 0;
+        for (std::uint32_t i = first; i < std::min<std::size_t>(first + lane_count, tile_.nodes.size()); ++i) {
+            const Node& node = tile_.nodes[i];
+            if (lost_[i] || (node.parent == no_node && !roots_may)) continue;
+            const int k = static_cast<int>(i - first);
+            const Node* parent = node.parent == no_node ? nullptr : &tile_.nodes[node.parent];
+            const Vec3 start = parent ? parent->position : camera_ray(world, point_of(places_[i])).origin;
+            set_lane(ran.start, k, start);
+            set_lane(ran.way, k, node.left_scene() ? node.position : node.position - start);
+            ran.slack[k] = (parent ? parent->offset : 0.0) + (node.left_scene() ? 0.0 : end_slack * node.offset);
+            ran.endless |= node.left_scene() ? 1u << k : 0u;
+            asked |= 1u << k;
         }
-        if (!all.may_meet(group)) continue;
-        for (std::size_t k = 0; k < block.size(); ++k) {
-            if (group.may_meet(own[k].bundle())) near.push_back(block[k]);
-        }
+        if (!asked) continue;
+        for (unsigned may = asked & group.may_meet(ran); may; may &= may - 1) near.push_back(first + static_cast<std::uint32_t>(__builtin_ctz(may)));
     }
 
     Growth growth(world, tile_, false);
@@ -119,36 +83,55 @@ std::vector<std::uint32_t> KeptRays::that_meet(const InstanceGroup& group, const
     return found;
 }
 
-void KeptRays::find_lit_blocks() {
+void KeptRays::find_lit() {
     lit_known_ = true;
-    const auto nodes = static_cast<std::uint32_t>(tile_.nodes.size());
-    for (std::uint32_t first = 0; first < nodes; first += block_size) {
-        LitBlock block{first, std::min(first + block_size, nodes), {}};
-        for (std::uint32_t i = first; i < block.end; ++i) {
-            if (is_lit(i)) block.starts.include(around(tile_.nodes[i].position, tile_.nodes[i].offset));
+    lit_.reserve(tile_.nodes.size() / lane_count + 1);
+    for (std::uint32_t first = 0; first < tile_.nodes.size(); first += lane_count) {
+        LitLanes lanes{first, 0, {}, {}};
+        for (std::uint32_t i = first; i < std::min<std::size_t>(first + lane_count, tile_.nodes.size()); ++i) {
+            const Node& node = tile_.nodes[i];
+            if (lost_[i] || node.left_scene()) continue;
+            lanes.lit |= 1u << (i - first);
+            set_lane(lanes.position, static_cast<int>(i - first), node.position);
+            lanes.offset[i - first] = node.offset;
         }
-        if (block.starts.empty()) continue;
+        if (lanes.lit) lit_.push_back(lanes);
+    }
+    for (std::size_t first = 0; first < lit_.size(); first += block_size) {
+        LitBlock block{first, std::min(first + block_size, lit_.size()), {}};
+        for (std::size_t k = block.first; k < block.end; ++k) {
+            for (unsigned rest = lit_[k].lit; rest; rest &= rest - 1) {
+                const int i = __builtin_ctz(rest);
+                const Vec3 position = lane(lit_[k].position, i), beside = Vec3{1, 1, 1} * lit_[k].offset[i];
+                block.starts.include({position - beside, position + beside});
+            }
+        }
         lit_starts_.include(block.starts);
-        lit_.push_back(block);
+        blocks_.push_back(block);
     }
 }
 
 std::vector<KeptRays::MetWay> KeptRays::ways_that_meet(const InstanceGroup& group, const World& world, std::size_t light, Share settled) {
-    if (!lit_known_) find_lit_blocks();
+    if (!lit_known_) find_lit();
     std::vector<MetWay> found;
     const scene::Light& source = world.lights[light].source();
+    const bool directional = source.kind == scene::LightKind::directional;
     const auto may_meet = [&](const Bounds& starts) {
-        if (source.kind == scene::LightKind::directional) return group.may_meet(toward(starts, {-source.direction, -source.direction}));
+        if (directional) return group.may_meet(toward(starts, {-source.direction, -source.direction}));
         return group.may_meet(between(starts, {source.position, source.position}));
     };
     if (lit_.empty() || !may_meet(lit_starts_)) return found;
     std::vector<std::uint32_t> near;
-    for (const LitBlock& block : lit_) {
+    for (const LitBlock& block : blocks_) {
         if (!may_meet(block.starts)) continue;
-        for (std::uint32_t i = block.first; i < block.end; ++i) {
-            const Share share = tile_.shares[i * world.lights.size() + light];
-            if (share == Share::untried || share == Share::behind || share == settled || !is_lit(i)) continue;
-            if (may_meet(around(tile_.nodes[i].position, tile_.nodes[i].offset))) near.push_back(i);
+        for (std::size_t k = block.first; k < block.end; ++k) {
+            const LitLanes& lanes = lit_[k];
+            const Vec3Lanes way = directional ? broadcast(-source.direction) : broadcast(source.position) - lanes.position;
+            for (unsigned may = lanes.lit & group.may_meet({lanes.position, way, lanes.offset, directional ? ~0u : 0u}); may; may &= may - 1) {
+                const std::uint32_t i = lanes.first + static_cast<std::uint32_t>(__builtin_ctz(may));
+                const Share share = tile_.shares[i * world.lights.size() + light];
+                if (share != Share::untried && share != Share::behind && share != settled) near.push_back(i);
+            }
         }
     }
     Growth growth(world, tile_, false);

@@ -24,18 +24,24 @@ public:
     std::vector<MetWay> ways_that_meet(const InstanceGroup& group, const World& world, std::size_t light, Share settled);
 
 private:
-    struct LitBlock {  // neighbouring nodes that lights may reach
-        std::uint32_t first, end;
-        Bounds starts;
+    struct LitLanes {  // eight nodes in a row, of which these are lit
+        std::uint32_t first;
+        unsigned lit;
+        Vec3Lanes position;
+        Lanes offset;
     };
-    void find_lit_blocks();
-    bool is_lit(std::uint32_t i) const { return !lost_[i] && !tile_.nodes[i].left_scene(); }
+    struct LitBlock {  // neighbours
+        std::size_t first, end;  // of lit_
+        Bounds starts;           // of the rays to lights
+    };
+    void find_lit();
     void count(std::size_t rays, const accel::TestCounts& tests);
 
     Tile& tile_;
     std::span<const std::uint8_t> lost_;
     std::span<const std::uint64_t> places_;
-    std::vector<LitBlock> lit_;
+    std::vector<LitLanes> lit_;
+    std::vector<LitBlock> blocks_;
     Bounds lit_starts_;
     bool lit_known_ = false;
 };

@@ -48,7 +48,7 @@ public:
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
         if (lost_any_) compact();
         if (rays_may_end_elsewhere || untidy) tile_.forgotten = 0;
-        if (!now_.absorbs && (weights_changed_ || change_.frontier || spawns_again_)) weigh();
+        if (!now_.absorbs && (weights_changed_ || change_.frontier)) weigh();
         tile_.unsettled = tile_.unsettled || touched_;
     }
 
@@ -144,8 +144,8 @@ private:
     void respawn() {
         std::vector<std::uint32_t> again;
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            const Node& node = tile_.nodes[i];
             if (!spawn_again_[i]) continue;
+            const Node& node = tile_.nodes[i];
             if (lost_[i] || !node.spawned || node.left_scene()) spawn_again_[i] = false;
             else again.push_back(i);
         }
@@ -156,23 +156,33 @@ private:
         }
         auto next = sent.begin();
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            const std::uint32_t parent = tile_.nodes[i].parent;
-            if (parent != no_node && lost_[parent]) lost_[i] = true;
-            if (!spawn_again_[i]) continue;
+            if (!lost_[i] && !spawn_again_[i]) continue;
             const Pending* rays[3] = {};
             for (; next != sent.end() && next->parent == i; ++next) rays[static_cast<std::size_t>(next->way)] = &*next;
-            if (lost_[i]) continue;
-            for (const Way way : {Way::reflected, Way::refracted, Way::straight}) {
+            if (lost_[i]) {
+                for (const Way way : ways) {
+                    if (const std::uint32_t child = child_of(i, way); child != no_node) lost_[child] = true;
+                }
+                continue;
+            }
+            for (const Way way : ways) {
                 const Pending* ray = rays[static_cast<std::size_t>(way)];
                 const std::uint32_t child = child_of(i, way);
                 const bool holds = child != no_node && !lost_[child] && ray && !(way == Way::refracted && bends_[i]);
                 if (child != no_node && !holds) lost_[child] = lost_any_ = true;
                 if (holds && tile_.nodes[child].weight != ray->weight && !now_.absorbs) tile_.nodes[child].weight = ray->weight, weights_changed_ = true;
-                if (ray && !holds) missing.push_back(*ray);
+                if (!ray || holds) continue;
+                missing.push_back(*ray);
+                if (is_unseen(i)) missing.back().influence = 0;
             }
         }
         std::erase_if(tile_.pending, [&](const Pending& p) { return lost_[p.parent] || spawn_again_[p.parent]; });
         tile_.pending.insert(tile_.pending.end(), missing.begin(), missing.end());
+    }
+    static constexpr Way ways[] = {Way::reflected, Way::refracted, Way::straight};
+    bool is_unseen(std::uint32_t i) const {
+        while (i != no_node && !tile_.nodes[i].hidden) i = tile_.nodes[i].parent;
+        return i != no_node;
     }
     std::uint32_t child_of(std::uint32_t node, Way way) const {
         if (way == Way::reflected) return tile_.nodes[node].reflected;
@@ -360,8 +370,14 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
 
     int stage = static_cast<int>(level_of_stage.size());
     // Later stages begin with all nodes lit; where the picture has no shadows no stage lights what is there.
-    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) light_again(tile, world);
-    else stage = std::min(stage, shadows);
+    tile.all_lit = tile.all_spawned = 0;
+    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) {
+        light_again(tile, world);
+        tile.all_lit = static_cast<std::uint32_t>(tile.nodes.size());
+    } else {
+        stage = std::min(stage, shadows);
+    }
+    if (tile.stage > reflections) tile.all_spawned = static_cast<std::uint32_t>(tile.nodes.size());
     if (std::any_of(tile.corners.begin(), tile.corners.end(), is_missing)) stage = std::min(stage, all_roots(settings));
     if (std::any_of(tile.pending.begin(), tile.pending.end(), shows)) stage = std::min(stage, reflections);
     tile.todo.clear();
