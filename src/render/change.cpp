@@ -8,26 +8,9 @@ namespace {
 
 bool may_filter(const World& world, std::uint32_t instance) { return !world.instances[instance].opaque; }
 
-// The instances of a world by themselves; null if there are none that can be met. Unless their shapes are `known`, only where they may be is known.
-std::shared_ptr<const InstanceGroup> group_of(const World& world, const std::vector<std::uint32_t>& members, const scene::Settings& settings, bool known) {
-    std::vector<Bounds> boxes;
-    std::vector<accel::Instance> instances;
-    for (const std::uint32_t i : members) {
-        if (world.boxes[i].empty()) continue;
-        boxes.push_back(world.boxes[i]);
-        instances.push_back(world.instances[i]);
-    }
-    if (boxes.empty()) return nullptr;
-    std::unique_ptr<accel::Accelerator> alone;
-    if (known) {
-        if (auto made = make_accelerator(instances, settings)) alone = std::move(*made);
-    }
-    return std::make_shared<const InstanceGroup>(boxes, std::move(instances), std::move(alone));
-}
-
 class Comparison {
 public:
-    Comparison(const World& before, const World& now, std::span<const scene::ShapeId> reshaped) : before_(before), now_(now), reshaped_(reshaped) {}
+    Comparison(const World& before, const World& now, std::span<const geometry::Shape* const> reshaped) : before_(before), now_(now), reshaped_(reshaped) {}
 
     Change run(const scene::Settings& settings_before) {
         compare_settings(settings_before, now_.scene.settings);
@@ -140,20 +123,36 @@ private:
     }
 
     void gather_groups() {
-        const scene::Settings& settings = now_.scene.settings;
         const bool known = std::none_of(went_.begin(), went_.end(), [&](std::uint32_t i) { return is_reshaped(before_.instances[i].shape); });
-        change_.came = group_of(now_, came_, settings, true);
+        change_.came = group_of(now_, came_, true);
         change_.light_came = change_.came;
         if (!filter_now_.empty()) {
             came_.insert(came_.end(), filter_now_.begin(), filter_now_.end());
-            change_.light_came = group_of(now_, came_, settings, true);
+            change_.light_came = group_of(now_, came_, true);
         }
         went_.insert(went_.end(), filter_before_.begin(), filter_before_.end());
-        change_.light_went = group_of(before_, went_, settings, known);
+        change_.light_went = group_of(before_, went_, known);
+    }
+
+    // The instances of a world by themselves; null if there are none that can be met. Unless their shapes are `known`, only where they may be is known.
+    std::shared_ptr<const InstanceGroup> group_of(const World& world, const std::vector<std::uint32_t>& members, bool known) const {
+        std::vector<Bounds> boxes;
+        std::vector<accel::Instance> instances;
+        for (const std::uint32_t i : members) {
+            if (world.boxes[i].empty()) continue;
+            boxes.push_back(world.boxes[i]);
+            instances.push_back(world.instances[i]);
+        }
+        if (boxes.empty()) return nullptr;
+        std::unique_ptr<accel::Accelerator> alone;
+        if (known) {
+            if (auto made = make_accelerator(instances, now_.scene.settings, before_.accelerator.get(), reshaped_)) alone = std::move(*made);
+        }
+        return std::make_shared<const InstanceGroup>(boxes, std::move(instances), std::move(alone));
     }
 
     bool is_reshaped(const geometry::Shape* shape) const {
-        return std::any_of(reshaped_.begin(), reshaped_.end(), [&](scene::ShapeId id) { return &now_.scene.shapes[id.value].shape == shape; });
+        return std::find(reshaped_.begin(), reshaped_.end(), shape) != reshaped_.end();
     }
 
     // Lights go by their place in the list; where their number changed, those that are the same at its beginning and its end are taken for the same.
@@ -190,7 +189,7 @@ private:
     }
 
     const World &before_, &now_;
-    std::span<const scene::ShapeId> reshaped_;
+    std::span<const geometry::Shape* const> reshaped_;
     std::vector<std::uint32_t> went_, came_;                   // instances, by their index before or now
     std::vector<std::uint32_t> filter_before_, filter_now_;  // that let light through otherwise
     Change change_;
@@ -207,7 +206,7 @@ bool Change::touches_more_than_lobes() const {
            any_reassigned || lights_before != lights.size() || std::any_of(lights.begin(), lights.end(), [](LightChange l) { return l != LightChange::none; });
 }
 
-Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped) {
+Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const geometry::Shape* const> reshaped) {
     return Comparison(before, now, reshaped).run(settings_before);
 }
 

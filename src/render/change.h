@@ -60,6 +60,6 @@ struct Change {
 
 // Of the world before only what was derived from its scene is looked at, not the scene, of which `settings_before` are given. `reshaped`: shapes that
 // an edit gave another form. The change refers to both worlds.
-Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped);
+Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const geometry::Shape* const> reshaped);
 
 }  // namespace crescente::render
