@@ -69,6 +69,16 @@ std::vector<Edit> move_object(const render::Session& session) {
     node.transform = node.transform * math::Affine::translation(box.diagonal() * 0.2);
     return {scene::SetNode{{id}, node}};
 }
+// All but what the studio added.
+std::vector<Edit> hide_model(const render::Session& session) {
+    std::vector<Edit> edits;
+    for (const scene::NodeId root : session.scene().roots) {
+        scene::Node node = session.scene().nodes[root.value];
+        node.visible = false;
+        if (node.name != "studio ground") edits.push_back(scene::SetNode{root, node});
+    }
+    return edits;
+}
 std::vector<Edit> finer(const render::Session& session) {
     scene::Settings settings = session.scene().settings;
     settings.threshold /= 2;
@@ -92,10 +102,15 @@ void fresh(benchmark::State& state, const Scene& scene, bool keep) {
     }
 }
 
-void edited(benchmark::State& state, render::Session& session, std::vector<Edit> (*make)(const render::Session&)) {
+// undone: what counts is taking the edit back.
+void edited(benchmark::State& state, render::Session& session, std::vector<Edit> (*make)(const render::Session&), bool undone) {
     session.advance(render::Deadline::never());
     for (auto _ : state) {
         std::vector<Edit> edits = make(session);
+        if (undone) {
+            edits = session.edit(std::move(edits)).value().undo;
+            session.advance(render::Deadline::never());
+        }
         const double before = rays_of(session);
         const auto start = Clock::now();
         const std::uint64_t revised = session.stats().revised_tiles;
@@ -109,7 +124,7 @@ void edited(benchmark::State& state, render::Session& session, std::vector<Edit>
         state.SetIterationTime((milliseconds_since(start) - state.counters["picture"]) / 1000);
         state.counters["rays"] = rays_of(session) - before;
         state.counters["tiles"] = static_cast<double>(session.stats().revised_tiles - revised);
-        (void)session.edit(std::move(report.undo)).value();
+        if (!undone) (void)session.edit(std::move(report.undo)).value();
         session.advance(render::Deadline::never());
     }
 }
@@ -124,16 +139,18 @@ void add(const std::string& name, Scene scene) {
     };
     add_one("fresh", [=](auto& state) { fresh(state, scene, true); });
     add_one("fresh, trees not kept", [=](auto& state) { fresh(state, scene, false); });
-    const auto add_edit = [&](const std::string& what, std::vector<Edit> (*make)(const render::Session&)) {
+    const auto add_edit = [&](const std::string& what, std::vector<Edit> (*make)(const render::Session&), bool undone = false) {
         add_one(what, [=](auto& state) {
             if (!*shared) *shared = std::make_unique<render::Session>(render::Session::open(scene).value());
-            edited(state, **shared, make);
+            edited(state, **shared, make, undone);
         });
     };
     add_edit("color of a material", recolor);
     add_edit("strength of a light", brighten);
     add_edit("light moved", move_light);
     add_edit("small object moved", move_object);
+    add_edit("whole model hidden", hide_model);
+    add_edit("whole model shown again", hide_model, true);
     add_edit("finer threshold", finer);
     add_edit("camera moved", move_camera);
 }

@@ -27,6 +27,16 @@ void make_rays(const Vec3Lanes& origin, const Vec3Lanes& direction, const Lanes&
     std::memcpy(static_cast<void*>(rays), rows, sizeof rows);
 }
 
+// Eight rays from points to the light that they reach so.
+void make_shadow_rays(const Vec3Lanes& position, const Vec3Lanes& geometric_normal, const Lanes& offset, const Reach<Lanes>& reach, Ray* rays) {
+    // Short of a surface that the lamp lies in.
+    make_rays(starts(position, geometric_normal, offset, reach.to_light), reach.to_light, reach.distance * (1 - 1e-12) - 2.0 * offset, rays);
+}
+
+Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) {
+    return from_octahedral(OctahedralPoint<Lanes>{code.a / octahedral_scale, code.b / octahedral_scale});
+}
+
 constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
 
 }  // namespace
@@ -139,7 +149,7 @@ void Growth::gather(std::span<const std::uint32_t> nodes) {
     }
     for (PointLanes& p : points_) {
         p.viewer = normalize(p.viewer - p.position);
-        p.geometric = from_octahedral(OctahedralPoint<Lanes>{p.code.a / octahedral_scale, p.code.b / octahedral_scale});
+        p.geometric = geometric_normals(p.code);
     }
 }
 
@@ -223,18 +233,18 @@ bool Growth::occluded_as_last(std::size_t light, std::uint8_t depth, const Ray& 
     return hit.found();
 }
 
-// From eight points to the light that p.reach is of.
-void Growth::make_shadow_rays(const PointLanes& p, Ray* rays) {
-    // Short of a surface that the lamp lies in.
-    make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
-}
-
 std::span<const Ray> Growth::shadow_rays(std::span<const std::uint32_t> nodes, std::size_t light) {
-    gather(nodes);
-    rays_.resize(points_.size() * lane_count);
-    for (std::size_t block = 0; block < points_.size(); ++block) {
-        points_[block].reach = world_.lights[light].reach(points_[block].position);
-        make_shadow_rays(points_[block], &rays_[block * lane_count]);
+    rays_.resize((nodes.size() + lane_count - 1) / lane_count * lane_count);
+    for (std::size_t block = 0; block < nodes.size(); block += lane_count) {
+        Vec3Lanes position{};
+        Lanes a{}, b{}, offset{};  // a, b: of the geometric normal
+        for (std::size_t i = 0; i < lane_count; ++i) {
+            const Node& node = tile_.nodes[nodes[std::min(block + i, nodes.size() - 1)]];
+            set_lane(position, static_cast<int>(i), node.position);
+            a[i] = octahedral_a(node.geometric_normal), b[i] = octahedral_b(node.geometric_normal);
+            offset[i] = node.offset;
+        }
+        make_shadow_rays(position, geometric_normals({a, b}), offset, world_.lights[light].reach(position), &rays_[block]);
     }
     rays_.resize(nodes.size());
     return rays_;
@@ -255,7 +265,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         }
         if (!untried) continue;
         alignas(64) Ray rays[lane_count];
-        make_shadow_rays(p, rays);
+        make_shadow_rays(p.position, p.geometric, p.offset, p.reach, rays);
         tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(untried));
         for (unsigned rest = untried; rest; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);

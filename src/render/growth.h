@@ -87,7 +87,6 @@ private:
         unsigned lit;  // lanes that it reaches, if nothing stands in the way
     };
     void append();
-    static void make_shadow_rays(const PointLanes& points, geometry::Ray* rays);
     void gather(std::span<const std::uint32_t> nodes);
     void light_points(bool shadows, accel::Coherence coherence);
     void spawn_from_points(std::vector<Pending>& pending);
