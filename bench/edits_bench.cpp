@@ -1,11 +1,12 @@
 // What edits cost beside a fresh render: 1920 x 1080, two threads, to the last level. Each edit is made on a converged session, and undone again outside
 // of the time that counts.
 //
-// Counters: `edit` is what Session::edit takes, `first` from before it to the picture after the first quantum of work, both ms; `tiles` those that the edit
-// touched, `rays` those traced after it, `GB/s` the bytes of the trees of those tiles (about) over the whole time, to be compared with what the machine reads
-// and writes ("memory").
+// Counters: `edit` is what Session::edit takes, `first` from before it to the picture after the first quantum of work, `processor` the processor time of all
+// threads, which hardly suffers from what else the machine does, all ms; `tiles` those that the edit touched, `rays` those traced after it, `GB/s` the bytes of
+// the trees of those tiles (about) over the whole time, to be compared with what the machine reads and writes ("memory").
 #include <benchmark/benchmark.h>
 
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -24,6 +25,7 @@ using scene::Scene;
 constexpr auto first_quantum = std::chrono::milliseconds(10);
 
 double milliseconds_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+double processor_milliseconds() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 double rays_of(const render::Session& session) {
     const render::RayCounts rays = session.stats().rays;
     return static_cast<double>(rays.camera + rays.reflected + rays.refracted + rays.shadow);
@@ -94,6 +96,16 @@ std::vector<Edit> move_object(const render::Session& session) {
     node.transform = node.transform * math::Affine::translation(box.diagonal() * 0.2);
     return {scene::SetNode{{id}, node}};
 }
+// All but what the studio added.
+std::vector<Edit> hide_model(const render::Session& session) {
+    std::vector<Edit> edits;
+    for (const scene::NodeId root : session.scene().roots) {
+        scene::Node node = session.scene().nodes[root.value];
+        node.visible = false;
+        if (node.name != "studio ground") edits.push_back(scene::SetNode{root, node});
+    }
+    return edits;
+}
 std::vector<Edit> finer(const render::Session& session) {
     scene::Settings settings = session.scene().settings;
     settings.threshold /= 2;
@@ -111,19 +123,27 @@ void fresh(benchmark::State& state, const Scene& scene, bool keep) {
         copy.settings.keep = keep;
         auto session = render::Session::open(std::move(copy)).value();
         const auto start = Clock::now();
+        const double processor = processor_milliseconds();
         session.advance(render::Deadline::never());
         state.SetIterationTime(milliseconds_since(start) / 1000);
+        state.counters["processor"] = processor_milliseconds() - processor;
         state.counters["rays"] = rays_of(session);
     }
 }
 
-void edited(benchmark::State& state, render::Session& session, std::vector<Edit> (*make)(const render::Session&)) {
+// undone: what counts is taking the edit back.
+void edited(benchmark::State& state, render::Session& session, std::vector<Edit> (*make)(const render::Session&), bool undone) {
     session.advance(render::Deadline::never());
     render::Frame frame;
     session.refresh(frame);
     for (auto _ : state) {
         std::vector<Edit> edits = make(session);
+        if (undone) {
+            edits = session.edit(std::move(edits)).value().undo;
+            session.advance(render::Deadline::never());
+        }
         const double before = rays_of(session);
+        const double processor = processor_milliseconds();
         const auto start = Clock::now();
         const std::uint64_t revised = session.stats().revised_tiles;
         auto report = session.edit(std::move(edits)).value();
@@ -133,13 +153,14 @@ void edited(benchmark::State& state, render::Session& session, std::vector<Edit>
         state.counters["first"] = milliseconds_since(start);
         session.advance(render::Deadline::never());
         state.SetIterationTime(milliseconds_since(start) / 1000);
+        state.counters["processor"] = processor_milliseconds() - processor;
         state.counters["rays"] = rays_of(session) - before;
         const render::Stats stats = session.stats();
         const auto tiles = static_cast<double>(stats.revised_tiles - revised);
         state.counters["tiles"] = tiles;
         const double seconds = milliseconds_since(start) / 1000;
         state.counters["GB/s"] = 1e-9 * static_cast<double>(stats.forest_bytes) * tiles / tile_count(session.scene().settings) / seconds;
-        (void)session.edit(std::move(report.undo)).value();
+        if (!undone) (void)session.edit(std::move(report.undo)).value();
         session.advance(render::Deadline::never());
     }
 }
@@ -154,16 +175,18 @@ void add(const std::string& name, Scene scene) {
     };
     add_one("fresh", [=](auto& state) { fresh(state, scene, true); });
     add_one("fresh, trees not kept", [=](auto& state) { fresh(state, scene, false); });
-    const auto add_edit = [&](const std::string& what, std::vector<Edit> (*make)(const render::Session&)) {
+    const auto add_edit = [&](const std::string& what, std::vector<Edit> (*make)(const render::Session&), bool undone = false) {
         add_one(what, [=](auto& state) {
             if (!*shared) *shared = std::make_unique<render::Session>(render::Session::open(scene).value());
-            edited(state, **shared, make);
+            edited(state, **shared, make, undone);
         });
     };
     add_edit("color of a material", recolor);
     add_edit("strength of a light", brighten);
     add_edit("light moved", move_light);
     add_edit("small object moved", move_object);
+    add_edit("whole model hidden", hide_model);
+    add_edit("whole model shown again", hide_model, true);
     add_edit("finer threshold", finer);
     add_edit("camera moved", move_camera);
 }

@@ -51,7 +51,9 @@ struct KayKajiyaOptions {
 };
 std::unique_ptr<Accelerator> make_linear(std::span<const Instance> instances);
 std::unique_ptr<Accelerator> make_kay_kajiya(std::span<const Instance> instances, const KayKajiyaOptions& options);
-// Built on all cores. Error: resource, if Embree cannot get the memory.
-Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances);
+// Built on all cores. What is the same wherever a shape stands is taken from the accelerator `before`, if that is of this kind, unless the shape is among
+// those `reshaped` since; it is shared. All shapes that it knew must still be where they were. Error: resource, if Embree cannot get the memory.
+Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances, const Accelerator* before = nullptr,
+                                                   std::span<const geometry::Shape* const> reshaped = {});
 
 }  // namespace crescente::accel

@@ -5,6 +5,8 @@
 // far away is moved up to the scene first, so that all coordinates that matter are at most `reach` times the scene's radius R. The float
 // ray then strays from the double ray by a few units of 2^-24 R, and all boxes are grown by more than that (box_margin). The
 // end of the float ray is kept behind the nearest double hit by the same margin. See docs/decisions/0001-double-narrow-phase.md.
+#include <unordered_map>
+
 #include <embree3/rtcore.h>
 
 #include "accel/accelerator.h"
@@ -35,22 +37,19 @@ bool may_instance(const Instance& instance, double scene_radius) {
     return shrinks * grows < 100 && shrinks < 1e12 && grows < 1e12 && shrinks * scene_radius < largest_coordinate;
 }
 
+using Clusters = std::shared_ptr<const std::vector<TriangleCluster>>;  // of a mesh, wherever it stands
+
 // A primitive of Embree's: either a cluster of a mesh or one part of any other shape.
 struct Primitive {
     std::uint32_t instance;
-    std::uint32_t index;  // into clusters of the set, or part of the shape
-    bool is_cluster;
+    std::uint32_t part;
+    const TriangleCluster* cluster;  // or null
 };
 
 // What one Embree geometry refers to. Sets of instanced shapes name no instance: Embree tells which one it is in.
 struct PrimitiveSet {
     std::vector<Primitive> primitives;
-    std::vector<TriangleCluster> clusters;
     std::vector<RTCBounds> bounds;
-
-    std::size_t bytes() const {
-        return primitives.capacity() * sizeof(Primitive) + clusters.capacity() * sizeof(TriangleCluster);
-    }
 };
 
 struct Release {
@@ -120,6 +119,8 @@ class Embree final : public Accelerator {
 public:
     explicit Embree(std::span<const Instance> instances) : instances_(instances) {}
 
+    // Takes what is known of meshes, those too that are not shown now.
+    void take_clusters(const Embree& before, std::span<const geometry::Shape* const> reshaped);
     Expected<void> build();
     void nearest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, TestCounts& counts) const override;
     void shadow(std::span<const Ray> rays, std::span<Hit> occluders, std::vector<Crossing>& crossings, Coherence coherence,
@@ -136,10 +137,11 @@ private:
     template <bool shadows>
     void trace(std::span<const Ray> rays, std::span<Hit> hits, std::vector<Crossing>* crossings, Coherence coherence, TestCounts& counts) const;
     bool clip(const Ray& ray, double& from, double& to) const;
-    bool try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
+    bool try_packet(Query& query, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
                     auto&& visit) const;
     const MeshRay& mesh_ray(Query& query, unsigned lane, std::uint32_t instance) const;
     void attach(RTCScene scene, PrimitiveSet& set);
+    const std::vector<TriangleCluster>& clusters_of(const geometry::Shape& shape, const geometry::Mesh& mesh);
     std::uint32_t instance_of(const RTCIntersectContext& context, const Primitive& primitive) const {
         const unsigned geometry = context.instID[0];
         return geometry == RTC_INVALID_GEOMETRY_ID ? primitive.instance : instance_of_geometry_[geometry];
@@ -148,6 +150,7 @@ private:
     std::span<const Instance> instances_;
     Device device_;
     std::vector<std::unique_ptr<PrimitiveSet>> sets_;
+    std::unordered_map<const geometry::Shape*, Clusters> clusters_;
     std::vector<Scene> prototypes_;  // scenes of shapes that are shown several times
     Scene scene_;
     std::vector<std::uint32_t> instance_of_geometry_;  // by Embree geometry id of the top scene
@@ -157,6 +160,17 @@ private:
     Bounds box_;             // of all that is bounded, grown
     bool empty_ = true;
 };
+
+const std::vector<TriangleCluster>& Embree::clusters_of(const geometry::Shape& shape, const geometry::Mesh& mesh) {
+    Clusters& clusters = clusters_[&shape];
+    if (!clusters) clusters = std::make_shared<const std::vector<TriangleCluster>>(cluster_triangles(mesh, device_.get()));
+    return *clusters;
+}
+
+void Embree::take_clusters(const Embree& before, std::span<const geometry::Shape* const> reshaped) {
+    clusters_ = before.clusters_;
+    for (const geometry::Shape* shape : reshaped) clusters_.erase(shape);
+}
 
 Expected<void> Embree::build() {
     // Not told how many threads: Embree would cap oneTBB for the whole process, other sessions included.
@@ -208,7 +222,7 @@ Expected<void> Embree::build() {
         for (std::uint32_t part = 0; part < parts; ++part) {
             const Bounds box = transform(place, geometry::part_bounds(shape, part));
             if (box.empty()) continue;
-            set.primitives.push_back({instance, part, false});
+            set.primitives.push_back({instance, part, nullptr});
             set.bounds.push_back(float_bounds(box, origin, grow));
         }
     };
@@ -224,32 +238,25 @@ Expected<void> Embree::build() {
     std::vector<Placed> placed;
     for (const auto& [shape, users] : shared) {
         const auto* mesh = std::get_if<geometry::Mesh>(shape);
-        std::vector<TriangleCluster> clusters;
-        if (mesh) clusters = cluster_triangles(*mesh, device_.get());
+        std::span<const TriangleCluster> clusters;
+        if (mesh) clusters = clusters_of(*shape, *mesh);
         if (mesh && clusters.empty()) continue;
         std::vector<std::uint32_t> instanced, flattened;  // flattened: each with boxes of its own; the clusters are shared
         for (const std::uint32_t i : users) (users.size() > 1 && may_instance(instances_[i], radius_) ? instanced : flattened).push_back(i);
-        if (!mesh) {
-            for (const std::uint32_t i : flattened) add_parts(flat, *shape, i, instances_[i].to_world, center_, margin);
-        } else if (!flattened.empty()) {
-            const auto base = static_cast<std::uint32_t>(flat.clusters.size());
-            for (const std::uint32_t i : flattened) {
-                for (std::uint32_t c = 0; c < clusters.size(); ++c) {
-                    flat.primitives.push_back({i, base + c, true});
-                    flat.bounds.push_back(float_bounds(bounds(clusters[c], instances_[i].to_world), center_, margin));
-                }
+        const auto add_clusters = [&](PrimitiveSet& set, std::uint32_t instance, const Affine& place, Vec3 origin, double grow) {
+            for (const TriangleCluster& cluster : clusters) {
+                set.primitives.push_back({instance, 0, &cluster});
+                set.bounds.push_back(float_bounds(bounds(cluster, place), origin, grow));
             }
-            if (flat.clusters.empty() && instanced.empty()) {
-                flat.clusters = std::move(clusters);
-            } else {
-                flat.clusters.insert(flat.clusters.end(), clusters.begin(), clusters.end());
-            }
+        };
+        for (const std::uint32_t i : flattened) {
+            if (mesh) add_clusters(flat, i, instances_[i].to_world, center_, margin);
+            else add_parts(flat, *shape, i, instances_[i].to_world, center_, margin);
         }
         if (instanced.empty()) continue;
         // In the shape's own space Embree's ray strays further: by the errors of the world ray and of the transform, both in
         // float, carried into that space.
         PrimitiveSet& set = *sets_.emplace_back(std::make_unique<PrimitiveSet>());
-        set.clusters = std::move(clusters);
         const Bounds own = geometry::bounds(*shape);
         double local_margin = 0;
         for (const std::uint32_t i : instanced) {
@@ -258,11 +265,8 @@ Expected<void> Embree::build() {
             local_margin = std::max(local_margin, 4 * margin * stretch);
         }
         local_margin += box_margin * max_component(own.diagonal());
-        if (!mesh) add_parts(set, *shape, none, Affine{}, own.center(), local_margin);
-        for (std::uint32_t c = 0; c < set.clusters.size(); ++c) {
-            set.primitives.push_back({none, c, true});
-            set.bounds.push_back(float_bounds(bounds(set.clusters[c], Affine{}), own.center(), local_margin));
-        }
+        if (mesh) add_clusters(set, none, Affine{}, own.center(), local_margin);
+        else add_parts(set, *shape, none, Affine{}, own.center(), local_margin);
         RTCScene prototype = prototypes_.emplace_back(rtcNewScene(device_.get())).get();
         rtcSetSceneFlags(prototype, RTC_SCENE_FLAG_ROBUST);
         attach(prototype, set);
@@ -320,7 +324,7 @@ const MeshRay& Embree::mesh_ray(Query& query, unsigned lane, std::uint32_t insta
 
 // Tries a sphere, a cluster or a part of a Brep against a whole packet, and calls visit(lane, hit) for each crossing within the lane's reach. False if one
 // ray at a time is better, or the only way; then nothing was done.
-bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
+bool Embree::try_packet(Query& query, const Primitive& primitive, std::uint32_t index, const int* valid, Sense sense,
                         auto&& visit) const {
     const Instance& instance = instances_[index];
     const unsigned active = bits_of_lanes(valid);
@@ -328,8 +332,8 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
     const auto meet = [&](unsigned lane, const Hit& hit) {
         if (instance.one_sided.empty() || !is_culled(instance, hit.primitive, to_local(instance, query.rays[lane]), hit.t, sense)) visit(lane, hit);
     };
-    if (primitive.is_cluster) {
-        const TriangleCluster& cluster = set.clusters[primitive.index];
+    if (primitive.cluster) {
+        const TriangleCluster& cluster = *primitive.cluster;
         if (!rays_outnumber_triangles(active, cluster)) return false;
         if (query.mesh_packet.instance != index) query.mesh_packet.prepare(query.packet_rays, query.active, instance, index);
         if (!query.mesh_packet.usable) return false;
@@ -347,9 +351,9 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
     if (const auto* brep = std::get_if<geometry::Brep>(instance.shape)) {
         constexpr int few = 2;  // rays, which are cheaper one by one
         if (__builtin_popcount(active) <= few || !instance.one_sided.empty()) return false;  // behind a crossing that is culled there may be another
-        for (unsigned lanes = brep_lanes(query.packet_rays, active, instance, *brep, primitive.index, t); lanes; lanes &= lanes - 1) {
+        for (unsigned lanes = brep_lanes(query.packet_rays, active, instance, *brep, primitive.part, t); lanes; lanes &= lanes - 1) {
             const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-            visit(lane, Hit{t[lane], index, primitive.index});
+            visit(lane, Hit{t[lane], index, primitive.part});
         }
         query.counts.shape_tests += static_cast<unsigned>(__builtin_popcount(active));
         return true;
@@ -358,9 +362,9 @@ bool Embree::try_packet(Query& query, const PrimitiveSet& set, const Primitive& 
     if (!sphere) {
         const geometry::PatchLeaves* leaves = geometry::patch_leaves(*instance.shape);
         if (!leaves || __builtin_popcount(active) < least_patch_rays || !instance.one_sided.empty()) return false;
-        for (unsigned lanes = patch_lanes(query.packet_rays, active, instance, *leaves, primitive.index, t); lanes; lanes &= lanes - 1) {
+        for (unsigned lanes = patch_lanes(query.packet_rays, active, instance, *leaves, primitive.part, t); lanes; lanes &= lanes - 1) {
             const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-            visit(lane, Hit{t[lane], index, primitive.index});
+            visit(lane, Hit{t[lane], index, primitive.part});
         }
         query.counts.shape_tests += packet;
         return true;
@@ -391,16 +395,16 @@ void Embree::try_nearest(const RTCIntersectFunctionNArguments& arguments) const 
     const auto nearer = [&](unsigned lane, const Hit& hit) {
         if (before(hit, query.hits[lane])) update(lane, lane, hit);
     };
-    if (arguments.N == packet && try_packet(query, set, primitive, index, arguments.valid, Sense::eye, nearer)) return;
+    if (arguments.N == packet && try_packet(query, primitive, index, arguments.valid, Sense::eye, nearer)) return;
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
         const unsigned lane = RTCRayN_id(rays, arguments.N, i);
         Hit hit = query.hits[lane];
-        if (primitive.is_cluster) {
-            nearest_in_cluster(set.clusters[primitive.index], instance, index, mesh_ray(query, lane, index), hit, Sense::eye);
+        if (primitive.cluster) {
+            nearest_in_cluster(*primitive.cluster, instance, index, mesh_ray(query, lane, index), hit, Sense::eye);
             query.counts.shape_tests += cluster_size;
         } else {
-            nearest_in_part(instance, index, primitive.index, to_local(instance, query.rays[lane]), hit);
+            nearest_in_part(instance, index, primitive.part, to_local(instance, query.rays[lane]), hit);
             ++query.counts.shape_tests;
         }
         if (before(hit, query.hits[lane])) update(i, lane, hit);
@@ -414,7 +418,7 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
     const std::uint32_t index = instance_of(query.context, primitive);
     const Instance& instance = instances_[index];
     // Of a sphere that is not opaque both crossings count, of one with one side perhaps the second: one ray at a time.
-    if (arguments.N == packet && ((instance.opaque && instance.one_sided.empty()) || primitive.is_cluster)) {
+    if (arguments.N == packet && ((instance.opaque && instance.one_sided.empty()) || primitive.cluster)) {
         const auto block_or_cross = [&](unsigned lane, const Hit& hit) {
             if (instance.opaque) {
                 query.hits[lane] = hit;
@@ -423,31 +427,31 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
                 query.crossings->push_back({query.first_ray + lane, hit});
             }
         };
-        if (try_packet(query, set, primitive, index, arguments.valid, Sense::light, block_or_cross)) return;
+        if (try_packet(query, primitive, index, arguments.valid, Sense::light, block_or_cross)) return;
     }
     for (unsigned i = 0; i < arguments.N; ++i) {
         if (!arguments.valid[i]) continue;
         const unsigned lane = RTCRayN_id(arguments.ray, arguments.N, i);
         const Ray& ray = query.rays[lane];
-        query.counts.shape_tests += primitive.is_cluster ? cluster_size : 1;
+        query.counts.shape_tests += primitive.cluster ? cluster_size : 1;
         if (instance.opaque) {
             Hit& hit = query.hits[lane];
-            if (primitive.is_cluster) {
-                nearest_in_cluster(set.clusters[primitive.index], instance, index, mesh_ray(query, lane, index), hit, Sense::light);
+            if (primitive.cluster) {
+                nearest_in_cluster(*primitive.cluster, instance, index, mesh_ray(query, lane, index), hit, Sense::light);
             } else {
-                nearest_in_part(instance, index, primitive.index, to_local(instance, ray), hit, Sense::light);
+                nearest_in_part(instance, index, primitive.part, to_local(instance, ray), hit, Sense::light);
             }
             if (hit.found()) RTCRayN_tfar(arguments.ray, arguments.N, i) = -INFINITY;
-        } else if (primitive.is_cluster) {
+        } else if (primitive.cluster) {
             Lanes t;
-            const TriangleCluster& cluster = set.clusters[primitive.index];
+            const TriangleCluster& cluster = *primitive.cluster;
             for (unsigned lanes = hit_lanes(cluster, mesh_ray(query, lane, index), ray.t_max, t); lanes; lanes &= lanes - 1) {
                 const int k = __builtin_ctz(lanes);
                 if (is_culled(instance, cluster.triangle[k], mesh_ray(query, lane, index).ray, t[k], Sense::light)) continue;
                 query.crossings->push_back({query.first_ray + lane, {t[k], index, cluster.triangle[k]}});
             }
         } else {
-            all_in_part(instance, index, primitive.index, to_local(instance, ray), query.first_ray + lane, *query.crossings);
+            all_in_part(instance, index, primitive.part, to_local(instance, ray), query.first_ray + lane, *query.crossings);
         }
     }
 }
@@ -584,14 +588,16 @@ void Embree::shadow(std::span<const Ray> rays, std::span<Hit> occluders, std::ve
 
 std::size_t Embree::bytes() const {
     std::size_t total = 0;
-    for (const auto& set : sets_) total += set->bytes();
+    for (const auto& set : sets_) total += set->primitives.capacity() * sizeof(Primitive);
+    for (const auto& [shape, clusters] : clusters_) total += clusters->capacity() * sizeof(TriangleCluster);
     return total;
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances) {
+Expected<std::unique_ptr<Accelerator>> make_embree(std::span<const Instance> instances, const Accelerator* before, std::span<const geometry::Shape* const> reshaped) {
     auto embree = std::make_unique<Embree>(instances);
+    if (const auto* same_kind = dynamic_cast<const Embree*>(before)) embree->take_clusters(*same_kind, reshaped);
     if (auto built = embree->build(); !built) return tl::unexpected(built.error());
     return embree;
 }

@@ -10,12 +10,13 @@ bool may_filter(const World& world, std::uint32_t instance) { return !world.inst
 
 class Comparison {
 public:
-    Comparison(const World& before, const World& now, std::span<const scene::ShapeId> reshaped) : before_(before), now_(now), reshaped_(reshaped) {}
+    Comparison(const World& before, const World& now, std::span<const geometry::Shape* const> reshaped) : before_(before), now_(now), reshaped_(reshaped) {}
 
     Change run(const scene::Settings& settings_before) {
         compare_settings(settings_before, now_.scene.settings);
         compare_lobes();
         compare_instances();
+        if (!change_.anew) gather_groups();
         compare_lights();
         if (before_.environment != now_.environment) {
             change_.sky = true;
@@ -81,22 +82,20 @@ private:
         for (std::uint32_t i = 0; i < before_.instances.size(); ++i) {
             if (change_.instance_now[i] != no_node) continue;
             change_.same_geometry = false;
-            change_.light_went.push_back(before_.boxes[i]);
+            went_.push_back(i);
             if (before_.absorbs && may_filter(before_, i)) change_.anew = true;  // media of rays that it is not on the way of
         }
     }
 
     void came(std::uint32_t i) {
         change_.same_geometry = false;
-        change_.came.push_back(now_.boxes[i]);
-        change_.light_came.push_back(now_.boxes[i]);
+        came_.push_back(i);
         if (now_.absorbs && may_filter(now_, i)) change_.anew = true;
     }
 
     bool same_place(std::uint32_t was, std::uint32_t i) const {
         const accel::Instance &a = before_.instances[was], &b = now_.instances[i];
-        const auto is_shown = [&](scene::ShapeId id) { return &now_.scene.shapes[id.value].shape == b.shape; };
-        if (a.shape != b.shape || a.to_world != b.to_world || std::any_of(reshaped_.begin(), reshaped_.end(), is_shown)) return false;
+        if (a.shape != b.shape || a.to_world != b.to_world || is_reshaped(b.shape)) return false;
         // Of a surface with one side rays do not meet the other.
         const auto x = before_.slots_of(was), y = now_.slots_of(i);
         const std::size_t slots = std::max(x.size(), y.size());
@@ -119,8 +118,41 @@ private:
             if (a != b && (before_.absorbs || now_.absorbs) && (from.goes_on() || to.goes_on())) change_.anew = true;
         }
         if (!filters) return;
-        change_.light_went.push_back(before_.boxes[was]);
-        change_.light_came.push_back(now_.boxes[i]);
+        filter_before_.push_back(was);
+        filter_now_.push_back(i);
+    }
+
+    void gather_groups() {
+        const bool known = std::none_of(went_.begin(), went_.end(), [&](std::uint32_t i) { return is_reshaped(before_.instances[i].shape); });
+        change_.came = group_of(now_, came_, true);
+        change_.light_came = change_.came;
+        if (!filter_now_.empty()) {
+            came_.insert(came_.end(), filter_now_.begin(), filter_now_.end());
+            change_.light_came = group_of(now_, came_, true);
+        }
+        went_.insert(went_.end(), filter_before_.begin(), filter_before_.end());
+        change_.light_went = group_of(before_, went_, known);
+    }
+
+    // The instances of a world by themselves; null if there are none that can be met. Unless their shapes are `known`, only where they may be is known.
+    std::shared_ptr<const InstanceGroup> group_of(const World& world, const std::vector<std::uint32_t>& members, bool known) const {
+        std::vector<Bounds> boxes;
+        std::vector<accel::Instance> instances;
+        for (const std::uint32_t i : members) {
+            if (world.boxes[i].empty()) continue;
+            boxes.push_back(world.boxes[i]);
+            instances.push_back(world.instances[i]);
+        }
+        if (boxes.empty()) return nullptr;
+        std::unique_ptr<accel::Accelerator> alone;
+        if (known) {
+            if (auto made = make_accelerator(instances, now_.scene.settings, before_.accelerator.get(), reshaped_)) alone = std::move(*made);
+        }
+        return std::make_shared<const InstanceGroup>(boxes, std::move(instances), std::move(alone));
+    }
+
+    bool is_reshaped(const geometry::Shape* shape) const {
+        return std::find(reshaped_.begin(), reshaped_.end(), shape) != reshaped_.end();
     }
 
     // Lights go by their place in the list; where their number changed, those that are the same at its beginning and its end are taken for the same.
@@ -157,7 +189,9 @@ private:
     }
 
     const World &before_, &now_;
-    std::span<const scene::ShapeId> reshaped_;
+    std::span<const geometry::Shape* const> reshaped_;
+    std::vector<std::uint32_t> went_, came_;                   // instances, by their index before or now
+    std::vector<std::uint32_t> filter_before_, filter_now_;  // that let light through otherwise
     Change change_;
 };
 
@@ -168,11 +202,11 @@ LobesChange change_between(const Lobes& before, const Lobes& now) {
 }
 
 bool Change::touches_more_than_lobes() const {
-    return anew || !same_geometry || renumbered || !light_went.empty() || !light_came.empty() || all_lit || sky || frontier || splitting || stages ||
+    return anew || !same_geometry || renumbered || light_went || light_came || all_lit || sky || frontier || splitting || stages ||
            any_reassigned || lights_before != lights.size() || std::any_of(lights.begin(), lights.end(), [](LightChange l) { return l != LightChange::none; });
 }
 
-Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped) {
+Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const geometry::Shape* const> reshaped) {
     return Comparison(before, now, reshaped).run(settings_before);
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "render/instance_group.h"
 #include "render/world.h"
 
 namespace crescente::render {
@@ -28,12 +30,11 @@ struct Change {
     bool anew = false;           // everything on the way from the camera: trees begin again
     bool same_geometry = true;   // no instance came, went, moved or took another shape
 
-    // Instances. A ray that ended on one that is gone is traced again; one that passes the box of one that came may now end there.
+    // Instances. A ray that ended on one that is gone is traced again; one that meets one that came before its end ends there now.
     std::vector<std::uint32_t> instance_now;  // by index before; no_node: gone, or moved, or of another shape
-    std::vector<Bounds> came;                 // as they are now
     bool renumbered = false;                  // some instance that stays has another index now
-    // Of what may pass or keep light that did not, or did, before: boxes of instances that went, or came, or let light through otherwise.
-    std::vector<Bounds> light_went, light_came;
+    // As they are now, or were before; null: none. Lights: what may pass or keep light that did not, or did, before: with those that let light through otherwise.
+    std::shared_ptr<const InstanceGroup> came, light_went, light_came;
 
     std::vector<std::uint8_t> reassigned;     // by instance now: it may be of other materials
     bool any_reassigned = false;
@@ -58,7 +59,7 @@ struct Change {
 };
 
 // Of the world before only what was derived from its scene is looked at, not the scene, of which `settings_before` are given. `reshaped`: shapes that
-// an edit gave another form.
-Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const scene::ShapeId> reshaped);
+// an edit gave another form. The change refers to both worlds.
+Change change_between(const World& before, const scene::Settings& settings_before, const World& now, std::span<const geometry::Shape* const> reshaped);
 
 }  // namespace crescente::render

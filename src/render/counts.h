@@ -18,10 +18,12 @@ struct RayCounts {
 struct TestCounts {
     std::uint64_t box_tests = 0, shape_tests = 0;         // box tests: kay-kajiya only
     std::uint64_t shadow_cache_hits = 0;
+    std::uint64_t kept_rays = 0;  // tried after edits against the instances alone that came or went
     std::uint64_t shortcut_rays = 0, shortcut_wrong = 0;  // coherent sub-pixel rays: answered by the pixel's own objects, and how often that was not the nearest
 
     TestCounts& operator+=(const TestCounts& other) {
         box_tests += other.box_tests, shape_tests += other.shape_tests, shadow_cache_hits += other.shadow_cache_hits;
+        kept_rays += other.kept_rays;
         shortcut_rays += other.shortcut_rays, shortcut_wrong += other.shortcut_wrong;
         return *this;
     }

@@ -27,11 +27,11 @@ std::size_t Tile::filled_bytes() const {
 }
 
 void Tile::trim() {
-    nodes.shrink_to_fit();
-    shares.shrink_to_fit();
-    pending.shrink_to_fit();
-    quads.shrink_to_fit();
-    todo.shrink_to_fit();
+    // A little is not worth copying the rest.
+    const auto shrink = [](auto& column) {
+        if (column.capacity() - column.size() > column.size() / 16) column.shrink_to_fit();
+    };
+    shrink(nodes), shrink(shares), shrink(pending), shrink(quads), shrink(todo);
 }
 
 Tile blank_tile(const Tile& place) {

@@ -100,6 +100,7 @@ struct Tile {
     std::uint32_t kept = 0;   // with that: nodes that the edit left; those after them were grown since
     bool going_on = false;    // dropped before it was finished, and being grown anew to the end
     bool lit = true;          // false: some nodes wait for their light
+    std::uint32_t all_lit = 0, all_spawned = 0;  // nodes, the first ones, that after an edit are known to be lit, or to have sent their rays
 
     std::uint64_t materials = 0;  // bit i: some node may be of a material whose index is i modulo 64
     std::uint64_t revision = 0;  // edits of the session that the trees know
@@ -113,8 +114,8 @@ struct Tile {
     TestCounts tests;
 
     std::size_t bytes() const;         // allocated
-    std::size_t filled_bytes() const;  // in use: what is left after trim()
-    void trim();                       // gives back what was allocated in reserve
+    std::size_t filled_bytes() const;  // in use: about what is left after trim()
+    void trim();                       // gives back what was allocated in reserve, if it is much
     bool shows_pixels() const { return pixels_stage > stage || !lit; }
     int shown_stage() const { return shows_pixels() ? pixels_stage : stage; }
     std::uint32_t& corner(int x, int y) { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }

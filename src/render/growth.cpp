@@ -27,6 +27,16 @@ void make_rays(const Vec3Lanes& origin, const Vec3Lanes& direction, const Lanes&
     std::memcpy(static_cast<void*>(rays), rows, sizeof rows);
 }
 
+// Eight rays from points to the light that they reach so.
+void make_shadow_rays(const Vec3Lanes& position, const Vec3Lanes& geometric_normal, const Lanes& offset, const Reach<Lanes>& reach, Ray* rays) {
+    // Short of a surface that the lamp lies in.
+    make_rays(starts(position, geometric_normal, offset, reach.to_light), reach.to_light, reach.distance * (1 - 1e-12) - 2.0 * offset, rays);
+}
+
+Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) {
+    return from_octahedral(OctahedralPoint<Lanes>{code.a / octahedral_scale, code.b / octahedral_scale});
+}
+
 constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
 
 }  // namespace
@@ -139,7 +149,7 @@ void Growth::gather(std::span<const std::uint32_t> nodes) {
     }
     for (PointLanes& p : points_) {
         p.viewer = normalize(p.viewer - p.position);
-        p.geometric = from_octahedral(OctahedralPoint<Lanes>{p.code.a / octahedral_scale, p.code.b / octahedral_scale});
+        p.geometric = geometric_normals(p.code);
     }
 }
 
@@ -265,6 +275,23 @@ bool Growth::occluded_as_last(std::size_t light, std::uint8_t depth, const Ray& 
     return hit.found();
 }
 
+std::span<const Ray> Growth::shadow_rays(std::span<const std::uint32_t> nodes, std::size_t light) {
+    rays_.resize((nodes.size() + lane_count - 1) / lane_count * lane_count);
+    for (std::size_t block = 0; block < nodes.size(); block += lane_count) {
+        Vec3Lanes position{};
+        Lanes a{}, b{}, offset{};  // a, b: of the geometric normal
+        for (std::size_t i = 0; i < lane_count; ++i) {
+            const Node& node = tile_.nodes[nodes[std::min(block + i, nodes.size() - 1)]];
+            set_lane(position, static_cast<int>(i), node.position);
+            a[i] = octahedral_a(node.geometric_normal), b[i] = octahedral_b(node.geometric_normal);
+            offset[i] = node.offset;
+        }
+        make_shadow_rays(position, geometric_normals({a, b}), offset, world_.lights[light].reach(position), &rays_[block]);
+    }
+    rays_.resize(nodes.size());
+    return rays_;
+}
+
 void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     const std::size_t lights = world_.lights.size();
     accel::TestCounts counts;
@@ -280,8 +307,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         }
         if (!untried) continue;
         alignas(64) Ray rays[lane_count];
-        // Short of a surface that the lamp lies in.
-        make_rays(starts(p.position, p.geometric, p.offset, p.reach.to_light), p.reach.to_light, p.reach.distance * (1 - 1e-12) - 2.0 * p.offset, rays);
+        make_shadow_rays(p.position, p.geometric, p.offset, p.reach, rays);
         tile_.rays.shadow += static_cast<unsigned>(__builtin_popcount(untried));
         for (unsigned rest = untried; rest; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
@@ -342,14 +368,11 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) {
     }
 }
 
-void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) {
-    const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
+std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
     parents_.clear();
     for (const Pending& p : pending) parents_.push_back(p.parent);
     gather(parents_);
     rays_.resize((pending.size() + lane_count - 1) / lane_count * lane_count);
-    seeds_.clear();
-    bool coherent = true;
     for (std::size_t block = 0; block < points_.size(); ++block) {
         const PointLanes& p = points_[block];
         const Lanes cosine = dot(p.normal, p.viewer);
@@ -364,8 +387,6 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
                 eta[i] = node.inside ? lobes.ior : 1 / lobes.ior;
             }
             if (from.way == Way::straight) straight |= 1u << i;
-            seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(node.depth + 1), from.way != Way::reflected});
-            coherent = coherent && node.depth == 0;
         }
         Vec3Lanes direction = normalize(p.normal * (2.0 * cosine) - p.viewer);
         // Interpolated normals can send a reflection into the surface: lift it to just above.
@@ -379,11 +400,22 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         if (straight) direction = blend(straight, -p.viewer, direction);
         make_rays(starts(p.position, p.geometric, p.offset, direction), direction, Lanes{} + std::numeric_limits<double>::infinity(),
                   &rays_[block * lane_count]);
-        const int through = __builtin_popcount(refracted | straight);
-        tile_.rays.refracted += static_cast<unsigned>(through);
-        tile_.rays.reflected += static_cast<unsigned>(p.count - through);
     }
     rays_.resize(pending.size());
+    return rays_;
+}
+
+void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) {
+    const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
+    child_rays(pending);
+    seeds_.clear();
+    bool coherent = true;
+    for (const Pending& from : pending) {
+        const std::uint8_t depth = tile_.nodes[from.parent].depth;
+        seeds_.push_back({from.parent, from.weight, static_cast<std::uint8_t>(depth + 1), from.way != Way::reflected});
+        coherent = coherent && depth == 0;
+        ++(from.way == Way::reflected ? tile_.rays.reflected : tile_.rays.refracted);
+    }
     hits_.resize(rays_.size());
     accel::TestCounts counts;
     const Coherence coherence = coherent ? Coherence::coherent : Coherence::incoherent;

@@ -53,6 +53,13 @@ public:
     // Traces pending rays into child nodes with their light, and appends the rays that these spawn to `next`.
     void grow(std::span<const Pending> rays, std::vector<Pending>& next);
 
+    // The rays that grow() would trace for `pending`, in its order, to the bit. They stay until the next call of any function.
+    std::span<const geometry::Ray> child_rays(std::span<const Pending> pending);
+
+    // The rays that light() would trace from nodes that did not leave the scene to a light, in their order, to the bit; whether or not it reaches
+    // their side. They stay until the next call of any function.
+    std::span<const geometry::Ray> shadow_rays(std::span<const std::uint32_t> nodes, std::size_t light);
+
     // Grows everything in `pending` of more influence than `threshold`, generation by generation; the rest stays in `pending`. Stops
     // between chunks when the deadline passes and returns false; calling again goes on.
     bool grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline);

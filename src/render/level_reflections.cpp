@@ -1,5 +1,7 @@
 #include "render/level_reflections.h"
 
+#include <algorithm>
+
 namespace crescente::render {
 
 // Rays are grown in bands of influence, all tiles of a band before the next, so that the picture first gets what shows most.
@@ -14,8 +16,10 @@ std::vector<Stage> reflections_stages(const scene::Settings& settings) {
 
 bool advance_reflections(Growth& growth, const Stage& stage, const Deadline& deadline) {
     Tile& tile = growth.tile();
-    // The first band begins with the camera's own hits.
+    // The first band begins with the camera's own hits; the others find that all nodes sent their rays.
+    const bool first_band = stage.parameter == reflections_stages(growth.settings()).front().parameter;
     std::vector<std::uint32_t> chunk;
+    tile.cursor = first_band ? std::max<std::size_t>(tile.cursor, tile.all_spawned) : tile.nodes.size();
     while (tile.cursor < tile.nodes.size()) {
         for (; tile.cursor < tile.nodes.size() && chunk.size() < chunk_size; ++tile.cursor) {
             const Node& node = tile.nodes[tile.cursor];

@@ -1,6 +1,7 @@
 #include "render/preview.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "render/level.h"
 #include "render/level_visible.h"
@@ -40,7 +41,8 @@ struct Corner {
 
 class Preview {
 public:
-    Preview(Tile& tile, const World& world) : tile_(tile), growth_(world, tile, false) {}
+    // sends_rays: all nodes of the tile have sent theirs.
+    Preview(Tile& tile, const World& world, bool sends_rays) : tile_(tile), growth_(world, tile, false), sends_rays_(sends_rays) {}
 
     void run() {
         unlit_ = unlit(tile_);
@@ -104,11 +106,11 @@ private:
                 if (corners_[i].lit_anew) collect_unlit(tile_, root, nodes);
             }
         }
-        const std::uint32_t first = growth_.add_roots(points);
-        for (std::uint32_t k = 0; k < points.size(); ++k) {
-            *targets[k] = first + k;
-            nodes.push_back(first + k);
-        }
+        std::vector<std::uint32_t> roots(points.size());
+        std::iota(roots.begin(), roots.end(), growth_.add_roots(points));
+        for (std::size_t k = 0; k < roots.size(); ++k) *targets[k] = roots[k];
+        if (sends_rays_) growth_.spawn(roots, tile_.pending);
+        nodes.insert(nodes.end(), roots.begin(), roots.end());
         growth_.light(nodes, true, accel::Coherence::coherent);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             if (!wanted[i]) continue;
@@ -142,6 +144,7 @@ private:
 
     Tile& tile_;
     Growth growth_;
+    const bool sends_rays_;
     std::vector<std::uint8_t> unlit_;  // by node, of those that were there before
     std::vector<Mark> marks_;          // by pixel
     std::vector<int> columns_, rows_;  // of the grid
@@ -151,10 +154,10 @@ private:
 }  // namespace
 
 void preview(Tile& tile, const World& world, std::span<const scene::Level> level_of_stage) {
-    const bool has_shadows = tile.stage > 0 && level_of_stage[static_cast<std::size_t>(tile.stage) - 1] >= scene::Level::shadows;
-    if (!tile.unsettled || tile.nodes.empty() || tile.shows_pixels() || !has_shadows) return;
+    const scene::Level reached = tile.stage > 0 ? level_of_stage[static_cast<std::size_t>(tile.stage) - 1] : scene::Level::visible;
+    if (!tile.unsettled || tile.nodes.empty() || tile.shows_pixels() || reached < scene::Level::shadows) return;
     tile.kept = static_cast<std::uint32_t>(tile.nodes.size());
-    Preview(tile, world).run();
+    Preview(tile, world, reached >= scene::Level::reflections).run();
     tile.previewed_until = static_cast<int>(level_of_stage.size()) + 1;  // until it is settled, whatever its stage
 }
 

@@ -6,39 +6,16 @@
 #include "render/environment.h"
 #include "render/film.h"
 #include "render/growth.h"
+#include "render/kept_rays.h"
 #include "render/level_edges.h"
 #include "render/level_visible.h"
 
 namespace crescente::render {
 namespace {
 
-// Whether the way from `origin` along `direction`, from 0 to `end`, comes near the box: certainly if it passes it, whatever rounding does.
-bool passes(const Bounds& box, Vec3 origin, Vec3 direction, double end) {
-    constexpr double rounding = 1e-9;
-    double from = 0, to = end;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double margin = rounding * (std::abs(origin[axis]) + std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis])));
-        const double low = box.lower[axis] - margin - origin[axis], high = box.upper[axis] + margin - origin[axis];
-        const double d = direction[axis];
-        if (d == 0) {
-            if (low > 0 || high < 0) return false;
-            continue;
-        }
-        const double a = low / d, b = high / d;
-        if (std::isnan(a) || std::isnan(b)) continue;  // an infinite box
-        from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
-    }
-    return from <= to * (1 + rounding);
-}
-
-bool passes_any(const std::vector<Bounds>& boxes, Vec3 origin, Vec3 direction, double end) {
-    return std::any_of(boxes.begin(), boxes.end(), [&](const Bounds& box) { return passes(box, origin, direction, end); });
-}
-
 // The stage that sends a camera ray through every corner that has none.
 int all_roots(const scene::Settings& settings) { return static_cast<int>(visible_stages(settings).size()) - 1; }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
 class Reviser {
@@ -57,7 +34,7 @@ public:
         if (rays_may_end_elsewhere || untidy) find_lost_rays();
         if (lost_roots_) tile_.pixels = develop(tile_);
         if (lost_roots_ || outdated) tile_.pixels_stage = tile_.lit ? -1 : 0;
-        if (rays_may_end_elsewhere || change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
+        if (change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
             update_nodes();
         }
         if (!tile_.growing.empty()) {  // stopped amid splitting, which is then begun again
@@ -74,7 +51,7 @@ public:
         if (touched_) tile_.previewed_until = 0;
         if (lost_any_) compact();
         if (rays_may_end_elsewhere || untidy) tile_.forgotten = 0;
-        if (!now_.absorbs && (weights_changed_ || change_.frontier || spawns_again_)) weigh();
+        if (!now_.absorbs && (weights_changed_ || change_.frontier)) weigh();
         tile_.unsettled = tile_.unsettled || touched_;
     }
 
@@ -109,29 +86,23 @@ private:
         }
     }
 
-    // Rays that ended on what is gone, or that may now end earlier.
+    // Rays that ended on what is gone, or that now end earlier.
     void find_lost_rays() {
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
             const Node& node = tile_.nodes[i];
             const bool root = node.parent == no_node;
             const bool forgotten = root && place_[i] == nowhere;  // of a pixel that is no longer split
-            if (!forgotten && !is_lost(i)) continue;
-            lost_[i] = lost_any_ = true;
-            if (forgotten) continue;
-            if (root) lost_roots_ = true;
-            else spawn_again_[node.parent] = spawns_again_ = true;
+            if (forgotten || (!root && lost_[node.parent])) lost_[i] = lost_any_ = true;
+            else if (!node.left_scene() && change_.instance_now[node.instance] == no_node) lose(i);
         }
+        if (!change_.came) return;
+        for (const std::uint32_t i : KeptRays(tile_, lost_, place_).that_meet(*change_.came, before_)) lose(i);
     }
-    bool is_lost(std::uint32_t i) const {
-        const Node& node = tile_.nodes[i];
-        if (!node.left_scene() && change_.instance_now[node.instance] == no_node) return true;
-        if (change_.came.empty()) return false;
-        if (node.parent != no_node) {
-            const Vec3 origin = tile_.nodes[node.parent].position;
-            return passes_any(change_.came, origin, node.left_scene() ? node.position : node.position - origin, node.left_scene() ? infinity : 1);
-        }
-        const geometry::Ray ray = camera_ray(now_, point_of(place_[i]));
-        return passes_any(change_.came, ray.origin, ray.direction, node.left_scene() ? infinity : dot(node.position - ray.origin, ray.direction));
+    void lose(std::uint32_t i) {
+        lost_[i] = lost_any_ = true;
+        const std::uint32_t parent = tile_.nodes[i].parent;
+        if (parent == no_node) lost_roots_ = true;
+        else spawn_again_[parent] = spawns_again_ = true;
     }
 
     // Instances and materials by their present index, skies, and who is to be lit anew or to send its rays anew.
@@ -176,8 +147,8 @@ private:
     void respawn() {
         std::vector<std::uint32_t> again;
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            const Node& node = tile_.nodes[i];
             if (!spawn_again_[i]) continue;
+            const Node& node = tile_.nodes[i];
             if (lost_[i] || !node.spawned || node.left_scene()) spawn_again_[i] = false;
             else again.push_back(i);
         }
@@ -188,23 +159,33 @@ private:
         }
         auto next = sent.begin();
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            const std::uint32_t parent = tile_.nodes[i].parent;
-            if (parent != no_node && lost_[parent]) lost_[i] = true;
-            if (!spawn_again_[i]) continue;
+            if (!lost_[i] && !spawn_again_[i]) continue;
             const Pending* rays[3] = {};
             for (; next != sent.end() && next->parent == i; ++next) rays[static_cast<std::size_t>(next->way)] = &*next;
-            if (lost_[i]) continue;
-            for (const Way way : {Way::reflected, Way::refracted, Way::straight}) {
+            if (lost_[i]) {
+                for (const Way way : ways) {
+                    if (const std::uint32_t child = child_of(i, way); child != no_node) lost_[child] = true;
+                }
+                continue;
+            }
+            for (const Way way : ways) {
                 const Pending* ray = rays[static_cast<std::size_t>(way)];
                 const std::uint32_t child = child_of(i, way);
                 const bool holds = child != no_node && !lost_[child] && ray && !(way == Way::refracted && bends_[i]);
                 if (child != no_node && !holds) lost_[child] = lost_any_ = true;
                 if (holds && tile_.nodes[child].weight != ray->weight && !now_.absorbs) tile_.nodes[child].weight = ray->weight, weights_changed_ = true;
-                if (ray && !holds) missing.push_back(*ray);
+                if (!ray || holds) continue;
+                missing.push_back(*ray);
+                if (is_unseen(i)) missing.back().influence = 0;
             }
         }
         std::erase_if(tile_.pending, [&](const Pending& p) { return lost_[p.parent] || spawn_again_[p.parent]; });
         tile_.pending.insert(tile_.pending.end(), missing.begin(), missing.end());
+    }
+    static constexpr Way ways[] = {Way::reflected, Way::refracted, Way::straight};
+    bool is_unseen(std::uint32_t i) const {
+        while (i != no_node && !tile_.nodes[i].hidden) i = tile_.nodes[i].parent;
+        return i != no_node;
     }
     std::uint32_t child_of(std::uint32_t node, Way way) const {
         if (way == Way::reflected) return tile_.nodes[node].reflected;
@@ -213,47 +194,75 @@ private:
         return child == tile_.straight.end() ? no_node : child->second;
     }
 
-    // The ways of lights that may be others are untried again.
+    // Ways of lights that are others are untried again, or known to be blocked; nodes are lit again where they are.
     void update_shares() {
-        const std::size_t before = change_.lights_before, now = change_.lights.size();
-        bool same = before == now && change_.light_went.empty() && change_.light_came.empty();
-        for (std::size_t l = 0; l < now; ++l) same = same && change_.lights[l] == LightChange::none && change_.light_before[l] == l;
-        if (same) return;
-        std::vector<Share> shares(tile_.nodes.size() * now, Share::untried);
-        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            Node& node = tile_.nodes[i];
-            if (lost_[i] || node.left_scene()) continue;
-            for (std::size_t l = 0; l < now; ++l) {
-                const std::size_t was = change_.light_before[l], key = i * before + was;
-                const Share share = was == no_node || key >= tile_.shares.size() ? Share::untried : tile_.shares[key];
-                const bool holds = holds_still(node, l, share);
-                if (holds) shares[i * now + l] = share;
-                // The strength of a light that does not arrive does not matter.
-                tile_.untried = tile_.untried || !holds || (share == Share::untried && was == no_node);
-                if (!holds || (change_.lights[l] != LightChange::none && may_arrive(share))) relight(node);
-            }
+        const std::size_t lights = change_.lights.size();
+        bool same = change_.lights_before == lights;
+        for (std::size_t l = 0; l < lights; ++l) same = same && change_.light_before[l] == l;
+        if (!same) lay_out_shares();
+        tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
+        for (std::size_t l = 0; l < lights; ++l) {
+            if (change_.lights[l] != LightChange::none) change_light(l);
         }
+        if (change_.light_went || change_.light_came) try_shares_again();
+    }
+
+    // For the lights that there are now, which may be others, in another order.
+    void lay_out_shares() {
+        const std::size_t before = change_.lights_before, now = change_.lights.size();
+        tile_.shares.resize(tile_.nodes.size() * before, Share::untried);
+        std::vector<Share> shares(tile_.nodes.size() * now, Share::untried);
         std::unordered_map<std::uint64_t, Rgb> filtered;
-        for (std::size_t l = 0; l < now && !tile_.filtered.empty(); ++l) {
-            if (change_.light_before[l] == no_node) continue;
-            for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-                if (shares[i * now + l] == Share::filtered) filtered[i * now + l] = tile_.filtered.at(i * before + change_.light_before[l]);
+        for (std::size_t l = 0; l < now; ++l) {
+            const std::size_t was = change_.light_before[l];
+            if (was == no_node) continue;
+            for (std::size_t i = 0; i < tile_.nodes.size(); ++i) {
+                shares[i * now + l] = tile_.shares[i * before + was];
+                if (shares[i * now + l] == Share::filtered) filtered[i * now + l] = tile_.filtered.at(i * before + was);
             }
         }
         tile_.shares = std::move(shares);
         tile_.filtered = std::move(filtered);
     }
-    bool holds_still(const Node& node, std::size_t l, Share share) const {
-        if (share == Share::untried) return true;
-        if (change_.lights[l] == LightChange::way) return false;
-        if (share == Share::behind) return change_.lights[l] < LightChange::reach;
-        const bool may_open = share != Share::clear && !change_.light_went.empty(), may_close = share != Share::blocked && !change_.light_came.empty();
-        if (!may_open && !may_close) return true;
-        const scene::Light& light = now_.lights[l].source();
-        const bool directional = light.kind == scene::LightKind::directional;
-        const Vec3 way = directional ? -light.direction : light.position - node.position;
-        const double end = directional ? infinity : 1;
-        return !(may_open && passes_any(change_.light_went, node.position, way, end)) && !(may_close && passes_any(change_.light_came, node.position, way, end));
+
+    void change_light(std::size_t l) {
+        const std::size_t lights = change_.lights.size();
+        const LightChange change = change_.lights[l];
+        const bool is_new = change_.light_before[l] == no_node;
+        for (std::size_t i = 0; i < tile_.nodes.size(); ++i) {
+            Node& node = tile_.nodes[i];
+            if (lost_[i] || node.left_scene()) continue;
+            const Share share = tile_.shares[i * lights + l];
+            tile_.untried = tile_.untried || is_new;
+            if (share != Share::untried && (change == LightChange::way || (change == LightChange::reach && share == Share::behind))) {
+                change_share(static_cast<std::uint32_t>(i), l, Share::untried);
+            } else if (may_arrive(share)) {  // the strength of a light that does not arrive does not matter
+                relight(node);
+            }
+        }
+    }
+    void change_share(std::uint32_t node, std::size_t light, Share now) {
+        const std::size_t key = node * change_.lights.size() + light;
+        if (tile_.shares[key] == Share::filtered) tile_.filtered.erase(key);
+        tile_.shares[key] = now;
+        tile_.untried = tile_.untried || now == Share::untried;
+        relight(tile_.nodes[node]);
+    }
+
+    // What went may open ways that were not clear, what came may close those that were not blocked.
+    void try_shares_again() {
+        KeptRays kept(tile_, lost_, place_);
+        const std::size_t lights = change_.lights.size();
+        for (std::size_t l = 0; l < lights; ++l) {
+            if (change_.lights[l] == LightChange::way) continue;
+            if (change_.light_went) {
+                for (const auto& way : kept.ways_that_meet(*change_.light_went, now_, l, Share::clear)) change_share(way.node, l, Share::untried);
+            }
+            if (!change_.light_came) continue;
+            for (const auto& way : kept.ways_that_meet(*change_.light_came, now_, l, Share::blocked)) {
+                change_share(way.node, l, way.meeting == Meeting::occluder ? Share::blocked : Share::untried);
+            }
+        }
     }
 
     // Takes lost nodes out. The others keep their order, so that children still come after their parents.
@@ -365,8 +374,14 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
 
     int stage = static_cast<int>(level_of_stage.size());
     // Later stages begin with all nodes lit; where the picture has no shadows no stage lights what is there.
-    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) light_again(tile, world);
-    else stage = std::min(stage, shadows);
+    tile.all_lit = tile.all_spawned = 0;
+    if (tile.lit && (settings.level == scene::Level::visible || (tile.stage > shadows && !untried))) {
+        light_again(tile, world);
+        tile.all_lit = static_cast<std::uint32_t>(tile.nodes.size());
+    } else {
+        stage = std::min(stage, shadows);
+    }
+    if (tile.stage > reflections) tile.all_spawned = static_cast<std::uint32_t>(tile.nodes.size());
     if (std::any_of(tile.corners.begin(), tile.corners.end(), is_missing)) stage = std::min(stage, all_roots(settings));
     if (std::any_of(tile.pending.begin(), tile.pending.end(), shows)) stage = std::min(stage, reflections);
     tile.todo.clear();

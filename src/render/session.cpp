@@ -101,9 +101,10 @@ Progress Session::advance(const Deadline& deadline) {
 Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::string& file) {
     State& s = *state_;
     const auto start = Clock::now();
-    std::vector<scene::ShapeId> reshaped;  // what trees know of the old form would not fit the new one
+    std::vector<const geometry::Shape*> reshaped;  // what trees know of the old form would not fit the new one
     for (const scene::Edit& edit : edits) {
-        if (const auto* shape = std::get_if<scene::SetShape>(&edit)) reshaped.push_back(shape->shape);
+        const auto* e = std::get_if<scene::SetShape>(&edit);
+        if (e && e->shape.value < s.world->scene.shapes.size()) reshaped.push_back(&s.world->scene.shapes[e->shape.value].shape);
     }
     if (!reshaped.empty()) s.catch_up(Deadline::never());
     const scene::Settings settings = s.world->scene.settings;
@@ -115,7 +116,7 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     auto now = world_without_accelerator(std::move(before.scene));
     Change change = change_between(before, settings, *now, reshaped);
     const accel::Accelerator* accelerator = before.accelerator.get();
-    if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings)); !given) {
+    if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings), reshaped); !given) {
         before.scene = std::move(now->scene);
         (void)scene::apply(std::move(report.undo), before.scene);
         return tl::unexpected(given.error());

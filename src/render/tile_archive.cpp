@@ -79,7 +79,7 @@ void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
     [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, corners, pending, growing, quads, quads_before, subpixel_roots, stage, cursor,
-                            todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, materials, revision, changed, unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
+                            todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed, unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
     map(a, filtered), map(a, straight);

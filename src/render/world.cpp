@@ -5,16 +5,6 @@
 namespace crescente::render {
 namespace {
 
-Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings) {
-    switch (settings.accelerator) {
-        case scene::AcceleratorKind::linear: return accel::make_linear(instances);
-        case scene::AcceleratorKind::kay_kajiya:
-            return accel::make_kay_kajiya(instances, {settings.octant_rejection, settings.priority_queue});
-        case scene::AcceleratorKind::embree: break;
-    }
-    return accel::make_embree(instances);
-}
-
 // All but the accelerator.
 void derive(World& world) {
     const scene::Scene& s = world.scene;
@@ -55,7 +45,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     if (!scene.camera) return failure(ErrorKind::input, {"", "/camera", "the scene has no camera", ""});
     for (scene::NamedShape& shape : scene.shapes) geometry::prepare(shape.shape);
     auto world = world_without_accelerator(std::move(scene));
-    auto accelerator = make_accelerator(world->instances, world->scene.settings);
+    auto accelerator = make_accelerator(world->instances, world->scene.settings, nullptr, {});
     if (!accelerator) return tl::unexpected(accelerator.error());
     world->accelerator = std::move(*accelerator);
     return world;
@@ -68,11 +58,22 @@ std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     return world;
 }
 
+Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings,
+                                                               const accel::Accelerator* before, std::span<const geometry::Shape* const> reshaped) {
+    switch (settings.accelerator) {
+        case scene::AcceleratorKind::linear: return accel::make_linear(instances);
+        case scene::AcceleratorKind::kay_kajiya:
+            return accel::make_kay_kajiya(instances, {settings.octant_rejection, settings.priority_queue});
+        case scene::AcceleratorKind::embree: break;
+    }
+    return accel::make_embree(instances, before, reshaped);
+}
+
 bool same_accelerator(const scene::Settings& a, const scene::Settings& b) {
     return a.accelerator == b.accelerator && a.octant_rejection == b.octant_rejection && a.priority_queue == b.priority_queue;
 }
 
-Expected<void> give_accelerator(World& world, World& before, bool same) {
+Expected<void> give_accelerator(World& world, World& before, bool same, std::span<const geometry::Shape* const> reshaped) {
     if (same) {
         // It looks at the instances in their old place.
         std::copy(world.instances.begin(), world.instances.end(), before.instances.begin());
@@ -80,7 +81,7 @@ Expected<void> give_accelerator(World& world, World& before, bool same) {
         world.accelerator = std::move(before.accelerator);
         return {};
     }
-    auto accelerator = make_accelerator(world.instances, world.scene.settings);
+    auto accelerator = make_accelerator(world.instances, world.scene.settings, before.accelerator.get(), reshaped);
     if (!accelerator) return tl::unexpected(accelerator.error());
     world.accelerator = std::move(*accelerator);
     return {};

@@ -51,11 +51,16 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene);
 // The same for a scene whose shapes are prepared, without the accelerator.
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene);
 
+// An accelerator of the kind that the settings ask for. It may take over what one before knew of shapes, but those that were `reshaped` since. Error: it
+// cannot be built.
+Expected<std::unique_ptr<accel::Accelerator>> make_accelerator(std::span<const accel::Instance> instances, const scene::Settings& settings,
+                                                               const accel::Accelerator* before, std::span<const geometry::Shape* const> reshaped);
+
 // Whether the settings ask for the same accelerator.
 bool same_accelerator(const scene::Settings& a, const scene::Settings& b);
 
-// Builds the accelerator of a world after an edit, or, if it would be the same, takes that of the world before, which is then of no more use. Error: it
+// Builds the accelerator of a world after an edit that reshaped these shapes, or, if it would be the same, takes that of the world before, which is then of no more use. Error: it
 // cannot be built; the world before keeps its own.
-Expected<void> give_accelerator(World& world, World& before, bool same);
+Expected<void> give_accelerator(World& world, World& before, bool same, std::span<const geometry::Shape* const> reshaped);
 
 }  // namespace crescente::render

@@ -4,6 +4,7 @@
 // CRESCENTE_EDIT_SCRIPTS=1000 test_render --gtest_filter='EditScripts.*' plays that many random scripts.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "render/scenes.h"
@@ -352,6 +353,42 @@ TEST(EditCost, AMovedObjectTracesWhatMeetsIt) {
     EXPECT_GT(cost.rays.camera, 0u);
     EXPECT_LT(cost.rays.camera, fresh.camera / 10);
     EXPECT_LT(all_rays(cost.rays), all_rays(fresh) / 8);
+}
+
+// A thin rod across its large box: no ray that passes the box alone is traced, and what the rod shades is known without a ray through the scene.
+TEST(EditCost, AnObjectThatComesTracesOnlyWhatItCovers) {
+    Build s(96, 72);
+    s.settings().tile = 96;
+    s.camera().position = {0, 3, 9}, s.camera().target = {0, 1, 0};
+    const MaterialId grey = s.material(matte({0.6f, 0.6f, 0.6f}));
+    s.place(geometry::Plane{}, grey);
+    const NodeId rod = s.place(box({-2.5, -0.05, -0.05}, {2.5, 0.05, 0.05}), grey, at({0, 1.5, 0}) * Affine::rotation({0, 0, 1}, 0.6) * Affine::rotation({0, 1, 0}, 0.6));
+    s.steady_light({3, 6, 5});
+    scene::Scene without = s.scene;
+    without.nodes[rod.value].visible = false;
+    const Cost came = cost_of(without, {scene::SetNode{rod, s.scene.nodes[rod.value]}});
+    const scene::Image picture = finished(s.scene).picture(true);
+    const auto covered = static_cast<std::uint64_t>(std::count(layer(picture, "object").values.begin(), layer(picture, "object").values.end(), float(rod.value)));
+    EXPECT_GT(covered, 50u);
+    EXPECT_GE(came.rays.camera, covered);
+    EXPECT_LE(came.rays.camera, covered + 96 + 72 + 1);  // pixels' own corners are counted in the picture, not those on the tile's far borders
+    EXPECT_LE(came.rays.shadow, came.rays.camera);
+
+    // And goes: the rays that ended on it, and the ways that it alone blocked.
+    const Cost went = cost_of(s.scene, {scene::SetNode{rod, without.nodes[rod.value]}});
+    EXPECT_EQ(went.rays.camera, came.rays.camera);
+    EXPECT_LT(went.rays.shadow, finished(s.scene).stats().rays.shadow / 6);
+}
+
+TEST(EditCost, RaysTriedAgainstWhatCameAreCountedApart) {
+    const Scene scene = without_splits();
+    scene::SetNode moved{{1}, scene.nodes[1]};
+    moved.value.transform = at({0.1, 0, 0}) * moved.value.transform;
+    Session session = finished(scene);
+    EXPECT_EQ(session.stats().tests.kept_rays, 0u);
+    ASSERT_TRUE(session.edit({moved}));
+    converge(session);
+    EXPECT_GT(session.stats().tests.kept_rays, 0u);
 }
 
 TEST(EditCost, FinerSettingsGrowOnlyTheFrontier) {
