@@ -288,6 +288,17 @@ private:
 };
 
 bool Brep::counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located) const {
+    // Most hits in cells that an edge runs through are not near it.
+    const Leaf& leaf = leaves_[part];
+    const TrimmedFace& face = faces_[leaf.face];
+    Vec3 along_u, along_v;
+    if (face.patches == none) {
+        along_u = face.surface.along_u(root), along_v = face.surface.along_v(root);
+    } else {
+        const Tangents own = tangents(leaf, face, root, ray.at(t));
+        along_u = own.along_u, along_v = own.along_v;
+    }
+    if (!face.trimming.near_edge(located.at, metric_seen_along(ray.direction, along_u, along_v))) return true;
     return EdgeJudge(*this, ray).counts({part, t, root, located});
 }
 
