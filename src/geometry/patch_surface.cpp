@@ -198,8 +198,8 @@ PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
         const double last_s = s, last_t = t;
         s = std::min(std::max(s + ds, -1e-3), 1 + 1e-3), t = std::min(std::max(t + dt, -1e-3), 1 + 1e-3);
         if (std::abs(ds) + std::abs(dt) > 1e-9) {
-            // At rest at the border, next to the point: beside the leaf.
-            beside = std::abs(s - last_s) + std::abs(t - last_t) <= 1e-9 && length(off) <= 0.1 * (std::sqrt(uu) + std::sqrt(vv));
+            // At rest at the border, no farther than a few times the leaf's length, which bands may be: beside it.
+            beside = std::abs(s - last_s) + std::abs(t - last_t) <= 1e-9 && length(off) <= 16 * (std::sqrt(uu) + std::sqrt(vv));
             if (beside) break;
             continue;
         }
