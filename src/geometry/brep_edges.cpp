@@ -108,6 +108,13 @@ private:
 
     std::uint32_t face_of(const Crossing& crossing) const { return brep_.leaves_[crossing.leaf].face; }
 
+    // The direction of a step in (u, v); zero of none.
+    static Vec3 in_space(const Brep::Tangents& tangents, Point2 step) {
+        const Vec3 v = tangents.along_u * step.u + tangents.along_v * step.v;
+        const double size = length(v);
+        return size > 0 ? v / size : Vec3{};
+    }
+
     Hit hit_of(const Crossing& crossing) const {
         const Brep::Leaf& leaf = brep_.leaves_[crossing.leaf];
         const Brep::TrimmedFace& face = brep_.faces_[leaf.face];
@@ -120,13 +127,8 @@ private:
         hit.normal = own.normal;
         hit.leaves = dot(own.normal, ray_.direction) > 0;
         hit.band = hit.reach = 0;
-        const auto in_space = [&](Point2 step) {
-            const Vec3 v = own.along_u * step.u + own.along_v * step.v;
-            const double size = length(v);
-            return size > 0 ? v / size : Vec3{};
-        };
         for (int i = 0; i < hit.edges; ++i) {
-            hit.outward[i] = in_space(edges[i].outward), hit.body[i] = in_space(edges[i].body);
+            hit.outward[i] = in_space(own, edges[i].outward), hit.body[i] = in_space(own, edges[i].body);
             hit.band = std::max(hit.band, edges[i].band), hit.reach = std::max({hit.reach, edges[i].band, edges[i].distance});
         }
         return hit;
@@ -190,17 +192,18 @@ private:
         return {t, metric, face.trimming.locate(at, [&](Point2) { return metric; })};
     }
 
-    // Whether the hit's face and the neighbour are the two sides of a wedge, convex (ours goes out of the neighbour's surface: turn > 0) or concave: then the neighbour
-    // goes out of ours, or in, likewise. Where four faces meet at an edge, two of them may have their outsides one before the other.
-    bool are_wedge(const Hit& hit, double turn, const Foot& foot, const Brep::TrimmedFace& face) const {
+    // Whether the hit's face and the neighbour are the two sides of a wedge, convex (across the edge ours goes out of the neighbour's surface: turn > 0) or concave: then
+    // the neighbour goes out of ours, or in, likewise. Where four faces meet at an edge, two of them may have their outsides one before the other.
+    bool are_wedge(const Hit& hit, int edge, double turn, const Foot& foot, const Brep::TrimmedFace& face) const {
+        constexpr double alongside = 0.2;  // sine
         Trimming::NearEdge edges[Trimming::most_near_edges];
         const Brep::Tangents& t = foot.tangents;
         const int count = face.trimming.near_edges(foot.located.at, foot.metric, metric_of(t.along_u, t.along_v), edges);
         double back = 0;
         for (int i = 0; i < count; ++i) {
-            const Vec3 outward = t.along_u * edges[i].outward.u + t.along_v * edges[i].outward.v;
-            const double size = length(outward), own = size > 0 ? dot(hit.normal, outward) / size : 0;
-            if (std::abs(own) > std::abs(back)) back = own;
+            const Vec3 outward = in_space(t, edges[i].outward);
+            if (length(cross(in_space(t, edges[i].body), hit.body[edge])) > alongside) continue;  // another edge at the same vertex
+            if (const double own = dot(hit.normal, outward); std::abs(own) > std::abs(back)) back = own;
         }
         return back * turn >= 0;
     }
@@ -258,7 +261,7 @@ private:
         // That it lies on the wrong side of a surface where the ray does not meet the face is no reason to leave out what lies inside the loops.
         const bool in_doubt = hit.strict ? !met : !there.crossed && std::abs(beyond) <= blur;
         if (within == (turn > 0) || in_doubt) relation.kind = Relation::stands;
-        else if (!are_wedge(hit, turn, foot, face)) return {};
+        else if (!are_wedge(hit, relation.edge, turn, foot, face)) return {};
         else if (alike) relation.kind = met || !there.near ? Relation::replaced : Relation::stands;
         else relation.kind = strict && there.near && !there.crossing.near_edge ? Relation::stands : Relation::cancelled;  // that one stands for itself
         return relation;
