@@ -200,12 +200,12 @@ private:
         const Brep::Tangents& t = foot.tangents;
         const int count = face.trimming.near_edges(foot.located.at, foot.metric, metric_of(t.along_u, t.along_v), edges);
         double back = 0;
+        bool common = false;  // not another edge at the same vertex
         for (int i = 0; i < count; ++i) {
-            const Vec3 outward = in_space(t, edges[i].outward);
-            if (length(cross(in_space(t, edges[i].body), hit.body[edge])) > alongside) continue;  // another edge at the same vertex
-            if (const double own = dot(hit.normal, outward); std::abs(own) > std::abs(back)) back = own;
+            const double own = dot(hit.normal, in_space(t, edges[i].outward));
+            if (std::abs(own) > std::abs(back)) back = own, common = length(cross(in_space(t, edges[i].body), hit.body[edge])) < alongside;
         }
-        return back * turn >= 0;
+        return back * turn >= 0 || !common;
     }
 
     // What another leaf near the hit has to say of it.
