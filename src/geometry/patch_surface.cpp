@@ -1,4 +1,5 @@
 // The surface of a leaf at given parameters, and the parameters of a point on it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -180,7 +181,13 @@ PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
             const double ds = (vv * ou - uv * ov) / det, dt = (uu * ov - uv * ou) / det;
             if (!std::isfinite(ds) || !std::isfinite(dt)) break;
             const double last_s = s, last_t = t;
-            s = std::min(std::max(s + ds, 0.0), 1.0), t = std::min(std::max(t + dt, 0.0), 1.0);
+            s = std::clamp(s + ds, 0.0, 1.0), t = std::clamp(t + dt, 0.0, 1.0);
+            if (s != last_s + ds || t != last_t + dt) {  // at the border: the nearest in the tangent plane by one parameter after the other
+                for (int sweep = 0; sweep < 4; ++sweep) {
+                    t = std::clamp(last_t + (ov - uv * (s - last_s)) / vv, 0.0, 1.0);
+                    s = std::clamp(last_s + (ou - uv * (t - last_t)) / uu, 0.0, 1.0);
+                }
+            }
             if (s == last_s && t == last_t) break;
         }
         const Tangents at = visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return tangents_at(degrees, control, s, t); });
