@@ -108,6 +108,13 @@ private:
 
     std::uint32_t face_of(const Crossing& crossing) const { return brep_.leaves_[crossing.leaf].face; }
 
+    // The direction of a step in (u, v); zero of none.
+    static Vec3 in_space(const Brep::Tangents& tangents, Point2 step) {
+        const Vec3 v = tangents.along_u * step.u + tangents.along_v * step.v;
+        const double size = length(v);
+        return size > 0 ? v / size : Vec3{};
+    }
+
     Hit hit_of(const Crossing& crossing) const {
         const Brep::Leaf& leaf = brep_.leaves_[crossing.leaf];
         const Brep::TrimmedFace& face = brep_.faces_[leaf.face];
@@ -120,13 +127,8 @@ private:
         hit.normal = own.normal;
         hit.leaves = dot(own.normal, ray_.direction) > 0;
         hit.band = hit.reach = 0;
-        const auto in_space = [&](Point2 step) {
-            const Vec3 v = own.along_u * step.u + own.along_v * step.v;
-            const double size = length(v);
-            return size > 0 ? v / size : Vec3{};
-        };
         for (int i = 0; i < hit.edges; ++i) {
-            hit.outward[i] = in_space(edges[i].outward), hit.body[i] = in_space(edges[i].body);
+            hit.outward[i] = in_space(own, edges[i].outward), hit.body[i] = in_space(own, edges[i].body);
             hit.band = std::max(hit.band, edges[i].band), hit.reach = std::max({hit.reach, edges[i].band, edges[i].distance});
         }
         return hit;
@@ -171,18 +173,39 @@ private:
         return count;
     }
 
-    // On the neighbour: as the ray sees its bands, or, next to the hit, with bands `wider` times as wide.
+    // On the neighbour, as the ray sees its bands.
     Trimming::Located located_at(const Brep::Leaf& leaf, const Brep::TrimmedFace& face, Point2 root, Vec3 position) const {
         if (face.patches != Brep::none) return brep_.locate_patch(leaf, face, {0, root.u, root.v}, position, ray_.direction);
         return face.trimming.locate(root, [&](Point2 p) { return metric_seen_along(ray_.direction, face.surface.along_u(p), face.surface.along_v(p)); });
     }
-    bool is_near(const Brep::Leaf& leaf, const Brep::TrimmedFace& face, Point2 root, Vec3 position, double wider) const {
+    // The point of a neighbour next to the hit, as bands `wider` times as wide have it.
+    struct Foot {
+        Brep::Tangents tangents;
+        Metric metric;
+        Trimming::Located located;
+    };
+    Foot foot_on(const Brep::Leaf& leaf, const Brep::TrimmedFace& face, Point2 root, Vec3 position, double wider) const {
         const Brep::Tangents t = brep_.tangents(leaf, face, root, position);
         const double scale = 1 / wider;
         const Metric metric = metric_of(t.along_u * scale, t.along_v * scale);
-        if (face.patches == Brep::none) return face.trimming.locate(root, [&](Point2) { return metric; }).place != Place::outside;
-        const Point2 at = brep_.locate_patch(leaf, face, {0, root.u, root.v}, position, {}).at;
-        return face.trimming.locate(at, [&](Point2) { return metric; }).place != Place::outside;
+        const Point2 at = face.patches == Brep::none ? root : brep_.locate_patch(leaf, face, {0, root.u, root.v}, position, {}).at;
+        return {t, metric, face.trimming.locate(at, [&](Point2) { return metric; })};
+    }
+
+    // Whether the hit's face and the neighbour are the two sides of a wedge, convex (across the edge ours goes out of the neighbour's surface: turn > 0) or concave: then
+    // the neighbour goes out of ours, or in, likewise. Where four faces meet at an edge, two of them may have their outsides one before the other.
+    bool are_wedge(const Hit& hit, int edge, double turn, const Foot& foot, const Brep::TrimmedFace& face) const {
+        constexpr double alongside = 0.2;  // sine
+        Trimming::NearEdge edges[Trimming::most_near_edges];
+        const Brep::Tangents& t = foot.tangents;
+        const int count = face.trimming.near_edges(foot.located.at, foot.metric, metric_of(t.along_u, t.along_v), edges);
+        double back = 0;
+        bool common = false;  // not another edge at the same vertex
+        for (int i = 0; i < count; ++i) {
+            const double own = dot(hit.normal, in_space(t, edges[i].outward));
+            if (std::abs(own) > std::abs(back)) back = own, common = length(cross(in_space(t, edges[i].body), hit.body[edge])) < alongside;
+        }
+        return back * turn >= 0 || !common;
     }
 
     // What another leaf near the hit has to say of it.
@@ -190,22 +213,24 @@ private:
         const Brep::Leaf& leaf = brep_.leaves_[other];
         const Brep::TrimmedFace& face = brep_.faces_[leaf.face];
         const PatchLeaves* patches = face.patches == Brep::none ? nullptr : &brep_.patches_[face.patches].leaves;
-        Point2 foot;
+        Point2 root;
         Vec3 below;
         if (patches) {
             if (patches->surely_farther(leaf.patch_leaf, hit.position, 2 * hit.reach)) return {};
             const PatchRoot near = patches->locate(leaf.patch_leaf, hit.position);
             const ParameterBox range = patches->range(leaf.patch_leaf);
             if (!(near.u >= range.u0 && near.u <= range.u1 && near.v >= range.v0 && near.v <= range.v1)) return {};
-            foot = {near.u, near.v};
+            root = {near.u, near.v};
             below = patches->at(leaf.patch_leaf, near.u, near.v).position;
         } else {
             const SurfacePoint near = face.surface.nearest(hit.position);
-            foot = {near.u, near.v};
+            root = {near.u, near.v};
             below = near.position;
         }
-        if (!(length(hit.position - below) <= 2 * hit.reach) || !is_near(leaf, face, foot, below, hit.reach / hit.band)) return {};
-        const Vec3 normal = brep_.tangents(leaf, face, foot, below).normal;
+        if (!(length(hit.position - below) <= 2 * hit.reach)) return {};
+        const Foot foot = foot_on(leaf, face, root, below, hit.reach / hit.band);
+        if (foot.located.place == Place::outside) return {};
+        const Vec3 normal = foot.tangents.normal;
         const double beyond = dot(hit.position - below, normal);
         Relation relation;
         double turn = 0;  // positive: across the edge with this face, ours goes out of it; negative: in
@@ -236,6 +261,7 @@ private:
         // That it lies on the wrong side of a surface where the ray does not meet the face is no reason to leave out what lies inside the loops.
         const bool in_doubt = hit.strict ? !met : !there.crossed && std::abs(beyond) <= blur;
         if (within == (turn > 0) || in_doubt) relation.kind = Relation::stands;
+        else if (!are_wedge(hit, relation.edge, turn, foot, face)) return {};
         else if (alike) relation.kind = met || !there.near ? Relation::replaced : Relation::stands;
         else relation.kind = strict && there.near && !there.crossing.near_edge ? Relation::stands : Relation::cancelled;  // that one stands for itself
         return relation;
@@ -288,6 +314,17 @@ private:
 };
 
 bool Brep::counts(std::uint32_t part, const Ray& ray, double t, Point2 root, const Trimming::Located& located) const {
+    // Most hits in cells that an edge runs through are not near it.
+    const Leaf& leaf = leaves_[part];
+    const TrimmedFace& face = faces_[leaf.face];
+    Vec3 along_u, along_v;
+    if (face.patches == none) {
+        along_u = face.surface.along_u(root), along_v = face.surface.along_v(root);
+    } else {
+        const Tangents own = tangents(leaf, face, root, ray.at(t));
+        along_u = own.along_u, along_v = own.along_v;
+    }
+    if (!face.trimming.near_edge(located.at, metric_seen_along(ray.direction, along_u, along_v))) return true;
     return EdgeJudge(*this, ray).counts({part, t, root, located});
 }
 

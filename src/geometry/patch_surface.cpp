@@ -1,4 +1,5 @@
 // The surface of a leaf at given parameters, and the parameters of a point on it.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -170,6 +171,28 @@ PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
     const Vec3 target = position - leaf.center;
     const double close = 16 * error(index);
     double s = 0.5, t = 0.5;
+    bool beside = false;
+    const auto nearest_from_here = [&] {
+        for (int step = 0; step < 20; ++step) {
+            const Tangents jet = visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return tangents_at(degrees, control, s, t); });
+            const Vec3 off = target - jet.at;
+            const double damp = 1e-9, uu = dot(jet.u, jet.u) * (1 + damp) + 1e-300, uv = dot(jet.u, jet.v), vv = dot(jet.v, jet.v) * (1 + damp) + 1e-300;
+            const double ou = dot(off, jet.u), ov = dot(off, jet.v), det = uu * vv - uv * uv;
+            const double ds = (vv * ou - uv * ov) / det, dt = (uu * ov - uv * ou) / det;
+            if (!std::isfinite(ds) || !std::isfinite(dt)) break;
+            const double last_s = s, last_t = t;
+            s = std::clamp(s + ds, 0.0, 1.0), t = std::clamp(t + dt, 0.0, 1.0);
+            if (s != last_s + ds || t != last_t + dt) {  // at the border: the nearest in the tangent plane by one parameter after the other
+                for (int sweep = 0; sweep < 4; ++sweep) {
+                    t = std::clamp(last_t + (ov - uv * (s - last_s)) / vv, 0.0, 1.0);
+                    s = std::clamp(last_s + (ou - uv * (t - last_t)) / uu, 0.0, 1.0);
+                }
+            }
+            if (s == last_s && t == last_t) break;
+        }
+        const Tangents at = visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return tangents_at(degrees, control, s, t); });
+        return PatchRoot{dot(target - at.at, leaf.normal), leaf.u0 + s * size_u, leaf.v0 + t * size_v};
+    };
     for (int step = 0; step < 12; ++step) {
         const Tangents jet =
             visit_degrees(leaf.kernel, leaf.degree_u, leaf.degree_v, [&](auto degrees) { return tangents_at(degrees, control, s, t); });
@@ -179,11 +202,18 @@ PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
         const double det = uu * vv - uv * uv;
         if (!(det > 1e-12 * uu * vv)) break;
         const double ds = (vv * ou - uv * ov) / det, dt = (uu * ov - uv * ou) / det;
+        const double last_s = s, last_t = t;
         s = std::min(std::max(s + ds, -1e-3), 1 + 1e-3), t = std::min(std::max(t + dt, -1e-3), 1 + 1e-3);
-        if (std::abs(ds) + std::abs(dt) > 1e-9) continue;
+        if (std::abs(ds) + std::abs(dt) > 1e-9) {
+            // At rest at the border, no farther than a few times the leaf's length, which bands may be: beside it.
+            beside = std::abs(s - last_s) + std::abs(t - last_t) <= 1e-9 && length(off) <= 16 * (std::sqrt(uu) + std::sqrt(vv));
+            if (beside) break;
+            continue;
+        }
         if (length(off) > close + 1e-6 * (std::abs(ds) * std::sqrt(uu) + std::abs(dt) * std::sqrt(vv))) break;
         return {dot(off, leaf.normal), leaf.u0 + s * size_u, leaf.v0 + t * size_v};
     }
+    if (beside) return nearest_from_here();
     // The certified way.
     std::array<PatchRoot, 8> found;
     const Vec3 along = dot(leaf.normal, leaf.normal) > 0 ? leaf.normal : Vec3{0, 0, 1};
@@ -201,17 +231,7 @@ PatchRoot PatchLeaves::locate(std::uint32_t index, Vec3 position) const {
             if (dot(off, off) < least) least = dot(off, off), s = i / 8.0, t = j / 8.0;
         }
     }
-    for (int step = 0; step < 20; ++step) {
-        const Jet<Vec3> jet = jet_at(control, leaf.degree_u, leaf.degree_v, s, t);
-        const Vec3 off = target - jet.at;
-        const double damp = 1e-9, uu = dot(jet.u, jet.u) * (1 + damp) + 1e-300, uv = dot(jet.u, jet.v), vv = dot(jet.v, jet.v) * (1 + damp) + 1e-300;
-        const double ou = dot(off, jet.u), ov = dot(off, jet.v), det = uu * vv - uv * uv;
-        const double ds = (vv * ou - uv * ov) / det, dt = (uu * ov - uv * ou) / det;
-        if (!std::isfinite(ds) || !std::isfinite(dt)) break;
-        s = std::min(std::max(s + ds, 0.0), 1.0), t = std::min(std::max(t + dt, 0.0), 1.0);
-    }
-    const Vec3 off = target - jet_at(control, leaf.degree_u, leaf.degree_v, s, t).at;
-    return {dot(off, leaf.normal), leaf.u0 + s * size_u, leaf.v0 + t * size_v};
+    return nearest_from_here();
 }
 
 SurfacePoint PatchLeaves::surface(std::uint32_t leaf, Vec3 position) const {

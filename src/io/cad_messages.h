@@ -11,7 +11,7 @@
 namespace crescente::io {
 
 // To be raised whenever the bytes of a model, or what the reader makes of a file, change: it is part of the cache's key.
-inline constexpr std::uint32_t cad_message_version = 3;
+inline constexpr std::uint32_t cad_message_version = 4;
 
 std::string pack_cad(const Expected<CadModel>& result);
 

@@ -46,7 +46,8 @@ void describe_node(const Tile& tile, const World& world, const std::vector<Rgb>&
                    std::string& out) {
     const Node& node = tile.nodes[index];
     const std::string pad(static_cast<std::size_t>(indent) * 2, ' ');
-    out += pad + kind + " ray, influence " + text(influence(tile, index)) + ", radiance " + text(radiance[index]) + "\n";
+    const bool from_camera = node.parent == no_node && !node.left_scene();
+    out += pad + kind + " ray" + (from_camera ? " from " + text(world.camera.viewer_of(node.position)) : "") + ", influence " + text(influence(tile, index)) + ", radiance " + text(radiance[index]) + "\n";
     if (node.left_scene()) {
         out += pad + "  leaves the scene towards " + text(node.position) + ": " + text(node.local) + "\n";
         return;

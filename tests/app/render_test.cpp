@@ -196,6 +196,7 @@ TEST_F(Render, ReplayTellsAPixelsTree) {
     const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "--size", "64x64", "--replay", "32,32", "-q"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_GT(count(outcome.out, "\n"), 4u) << outcome.out;
+    EXPECT_TRUE(contains(outcome.out, "camera ray from (2.1 1.3 1.7), ")) << outcome.out;
     const Outcome outside = crescente({"render", balls, "-o", path("b.png"), "--size", "64x64", "--replay", "64,0", "-q"});
     EXPECT_EQ(outside.code, 2);
     EXPECT_TRUE(contains(outside.err, "outside the picture"));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <tuple>
 
 #include "geometry/bernstein.h"
 #include "patch_oracle.h"
@@ -117,11 +118,19 @@ void compare(const BezierPatch& patch, const PatchLeaves& leaves, const PatchOra
         ASSERT_LE(std::abs(double(last->t - (o.t0 + o.t1) / 2)) * speed, double(o.t1 - o.t0) * speed + 1e-6 * size + 64 * eps * reach);
     }
     tally.unclear += unclear;
+    // Distances are found times the weight, which is at most 1.
+    double heaviest = 0, lightest = HUGE_VAL;
+    for (const ControlPoint& c : patch.points) heaviest = std::max(heaviest, c.weight), lightest = std::min(lightest, c.weight);
+    const double precision = 512 * eps * reach * heaviest / lightest;
     for (const PatchRoot& r : roots) {  // on the surface, and on the ray
-        ASSERT_TRUE(r.u > -blur && r.u < 1 + blur && r.v > -blur && r.v < 1 + blur) << r.u << ' ' << r.v;
-        const auto at = oracle.at(r.u, r.v);
-        const Exact on{at.x + corner.x, at.y + corner.y, at.z + corner.z};
-        ASSERT_LE(distance(on, on_ray(ray, r.t)), 512 * eps * reach) << "u " << r.u << " v " << r.v;
+        // Rounding moves a root beyond the border the farther the more the ray grazes.
+        const double step = 1e-6;
+        const auto on = oracle.at(r.u, r.v), there = oracle.on_ray(ray, r.t);
+        const auto from_here = [&](const PatchOracle::Point& p) { return Vec3{double(p.x - on.x), double(p.y - on.y), double(p.z - on.z)}; };
+        const Vec3 along_u = from_here(oracle.at(r.u + step, r.v)), along_v = from_here(oracle.at(r.u, r.v + step));
+        const double sine = std::abs(dot(normalize(cross(along_u, along_v)), ray.direction)) / speed, most = blur / std::max(sine, 1e-3);
+        ASSERT_TRUE(r.u > -most && r.u < 1 + most && r.v > -most && r.v < 1 + most) << r.u << ' ' << r.v << " sine " << sine;
+        ASSERT_LE(std::hypot(on.x - there.x, on.y - there.y, on.z - there.z), precision) << "u " << r.u << " v " << r.v;
     }
 }
 
@@ -171,6 +180,37 @@ TEST(PatchLeaves, NetsThatShrinkToPointsMakeFewLeaves) {
         const PatchLeaves leaves(std::array{knob});
         EXPECT_GT(leaves.count(), 20u);
         EXPECT_LT(leaves.count(), 150u);
+    }
+}
+
+// Of a point a little beside a leaf the nearest point of the leaf is found, or that along its mean normal, which is little farther, with a search or without.
+TEST(PatchLeaves, PointsBesideALeaf) {
+    const int count = rays_of_a_kind() / 10 + 1;
+    for (const auto& [p, q, rational, wave] : {std::tuple{1, 1, false, 1.0}, {2, 2, true, 0.7}, {3, 3, false, 0.7}, {3, 3, true, 0.7}, {5, 3, false, 0.7}}) {
+        Random random(static_cast<std::uint64_t>(p * 10 + q));
+        const PatchLeaves leaves(std::array{wavy(p, q, wave, rational, random)});
+        for (int i = 0; i < count; ++i) {
+            const auto leaf = static_cast<std::uint32_t>(random.bits() % leaves.count());
+            const ParameterBox range = leaves.range(leaf);
+            const auto surface = [&](double s, double t) { return leaves.at(leaf, range.u0 + s * (range.u1 - range.u0), range.v0 + t * (range.v1 - range.v0)).position; };
+            const double far = std::exp2(random.between(-20, -3)), away = random.bits() % 2 ? -far : 1 + far, along = random.between(-0.05, 1.05);
+            const bool by_u = random.bits() % 2;
+            const double size = length(surface(1, 1) - surface(0, 0));
+            const Vec3 point = surface(by_u ? away : along, by_u ? along : away) + random.direction() * (size * far * random.unit());
+            const PatchRoot found = leaves.locate(leaf, point);
+            // The nearest by a grid that is made finer about its best point.
+            double s = 0.5, t = 0.5, step = 0.5 / 16, least = HUGE_VAL;
+            for (int round = 0; round < 12; ++round, step /= 8) {
+                const double middle_s = s, middle_t = t;
+                for (int a = -16; a <= 16; ++a) {
+                    for (int b = -16; b <= 16; ++b) {
+                        const double at_s = std::clamp(middle_s + a * step, 0.0, 1.0), at_t = std::clamp(middle_t + b * step, 0.0, 1.0);
+                        if (const double off = length(point - surface(at_s, at_t)); off < least) least = off, s = at_s, t = at_t;
+                    }
+                }
+            }
+            ASSERT_LE(length(point - leaves.at(leaf, found.u, found.v).position), 1.1 * least + 1e-12 * size) << p << " x " << q << ", " << i << ": beside by " << far;
+        }
     }
 }
 

@@ -74,8 +74,12 @@ public:
     struct Point {
         Real x, y, z;
     };
-    // The surface, as seen from its first corner.
+    // What follows is as seen from the patch's first corner.
     Vec3 corner() const { return corner_; }
+    Point on_ray(const Ray& ray, Real t) const {
+        const Point p = from(ray);
+        return {p.x + t * ray.direction.x, p.y + t * ray.direction.y, p.z + t * ray.direction.z};
+    }
     Point at(Real u, Real v) const {
         Real sum[4] = {};
         for (int i = 0; i <= p_; ++i) {

@@ -67,7 +67,19 @@ public:
     }
 
 private:
-    // What a label shows, wherever it stands. Colours from above count only for what has none, so the same label under another colour is another.
+    // Adds an instance to the way down to it, as long as it lives.
+    class InPlace {
+    public:
+        InPlace(std::vector<TDF_Label>& way, const TDF_Label& label, bool is_instance) : way_(way), size_(way.size()) {
+            if (is_instance) way_.push_back(label);
+        }
+        ~InPlace() { way_.resize(size_); }
+
+    private:
+        std::vector<TDF_Label>& way_;
+        std::size_t size_;
+    };
+    // What a label shows, wherever it stands (unless the document says otherwise of one place). Colours from above count only for what has none, so the same label under another colour is another.
     struct Content {
         std::uint32_t part = CadNode{}.part;
         std::vector<std::uint32_t> colors, children;
@@ -110,13 +122,16 @@ private:
 
     // The node of a free shape or of a component; nothing if there is nothing to see.
     std::optional<std::uint32_t> place(const TDF_Label& label, std::uint32_t color_above, const std::string& name_above) {
-        if (!colors_.visible(label)) {
+        TDF_Label shown = label;
+        const bool is_instance = XCAFDoc_ShapeTool::GetReferredShape(label, shown);
+        const InPlace in_place(way_, label, is_instance);
+        const TDF_Label usage = colors_.usage_of(way_);
+        if (!colors_.visible(label) || (!usage.IsNull() && !colors_.visible(usage))) {
             ++hidden_;
             return std::nullopt;
         }
-        TDF_Label shown = label;
-        const bool is_instance = XCAFDoc_ShapeTool::GetReferredShape(label, shown);
-        const std::uint32_t own = is_instance ? colors_.of(label) : Colors::none;
+        std::uint32_t own = usage.IsNull() ? Colors::none : colors_.of(usage);
+        if (own == Colors::none && is_instance) own = colors_.of(label);
         // An instance's colour is meant for it more than the part's own.
         CadNode node;
         const std::string name = name_of(label), product = name_of(shown);
@@ -130,7 +145,11 @@ private:
     }
 
     const Content& content_of(const TDF_Label& label, std::uint32_t above, bool overriding, const std::string& name) {
-        const auto [found, is_new] = contents_.try_emplace({entry_of(label), above, overriding});
+        std::string key = entry_of(label);
+        if (colors_.has_usages()) {
+            for (const TDF_Label& component : way_) key += " " + entry_of(component);
+        }
+        const auto [found, is_new] = contents_.try_emplace({key, above, overriding});
         Content& content = found->second;
         if (!is_new) return content;
         const std::uint32_t own = colors_.of(label);
@@ -196,6 +215,7 @@ private:
     const Progress& progress_;
     CadModel model_;
     Colors colors_;
+    std::vector<TDF_Label> way_;  // the instances that what is being placed stands in, outermost first
     std::map<std::tuple<std::string, std::uint32_t, bool>, Content> contents_;
     std::map<std::string, PartFaces> parts_;
     std::vector<std::uint64_t> part_triangulated_;  // faces of each part that are shown as triangles
