@@ -74,6 +74,7 @@ bool Session::State::catch_up(const Deadline& deadline) {
 void Session::State::cut_tiles() {
     for (const Tile& tile : tiles) past_rays += tile.rays, past_tests += tile.tests;
     tiles.clear();
+    seen = {};
     ++clock;
     for (int y = 0; y < height(); y += tile_size()) {
         for (int x = 0; x < width(); x += tile_size()) {
@@ -96,6 +97,7 @@ void Session::State::move_camera(const World& before) {
     }
     const Reprojected picture = reproject(seen, world->camera, width(), height(), pool);
     const bool reuse = world->scene.settings.memory == 0;
+    if (!reuse) seen = {};  // under a ceiling moves that follow each other start from what the one before has grown
     ++clock;
     pool.for_each(tiles.size(), [&](std::size_t i) {
         Tile& tile = tiles[i];

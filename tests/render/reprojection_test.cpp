@@ -70,6 +70,17 @@ TEST(Reprojection, TheSameViewKeepsItsPicture) {
     EXPECT_LT(mean_difference(session.picture(), before), 1e-3) << "moves that follow each other start from the last complete picture";
 }
 
+TEST(Reprojection, PicturesOfAnotherSizeBeginWithoutIt) {
+    Session session = finished(table());
+    ASSERT_TRUE(session.edit({scene::SetCamera{moved(session.scene(), {0.3, 0, 0})}}));
+    scene::Settings larger = session.scene().settings;
+    larger.width = 400, larger.height = 300;
+    ASSERT_TRUE(session.edit({scene::SetSettings{larger}}));
+    ASSERT_TRUE(session.edit({scene::SetCamera{moved(session.scene(), {0.3, 0, 0})}}));
+    session.advance(Deadline::never());
+    EXPECT_TRUE(same_picture(picture_of(session.scene()), session.picture()));
+}
+
 TEST(Reprojection, IsTheSameOnAnyNumberOfThreads) {
     scene::Image pictures[2];
     for (const int threads : {1, 3}) {
