@@ -8,7 +8,6 @@
 
 #include <TCollection_AsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
-#include <TDF_Tool.hxx>
 #include <TDataStd_Name.hxx>
 #include <TopExp.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
@@ -16,6 +15,8 @@
 #include <gp_Trsf.hxx>
 
 #include "io/occt/colors.h"
+#include "io/occt/labels.h"
+#include "io/occt/usages.h"
 #include "io/occt/vectors.h"
 
 namespace crescente::io::occt {
@@ -32,12 +33,6 @@ std::string name_of(const TDF_Label& label) {
     return TCollection_AsciiString(name->Get()).ToCString();  // as UTF-8
 }
 
-std::string entry_of(const TDF_Label& label) {
-    TCollection_AsciiString entry;
-    TDF_Tool::Entry(label, entry);
-    return entry.ToCString();
-}
-
 // Names that OpenCASCADE or an exporter made up say nothing.
 bool made_up(const std::string& name) {
     return name.empty() || name.starts_with("=>[") || name.starts_with("NAUO") || name == "SOLID" || name == "COMPOUND" || name == "SHELL" || name == "ASSEMBLY" || name == "FACE" || name == "Open CASCADE STEP translator";
@@ -46,7 +41,7 @@ bool made_up(const std::string& name) {
 class TreeMaker {
 public:
     TreeMaker(const CadDocument& document, const PartOptions& options, const Progress& progress)
-        : main_(document.document->Main()), options_(options), progress_(progress), colors_(main_, model_.colors) {
+        : main_(document.document->Main()), options_(options), progress_(progress), colors_(main_, model_.colors), usages_(main_) {
         model_.unit = document.unit, model_.unit_metres = document.unit_metres;
         model_.referenced = document.referenced, model_.warnings = document.warnings;
     }
@@ -56,7 +51,7 @@ public:
         XCAFDoc_DocumentTool::ShapeTool(main_)->GetFreeShapes(roots);
         faces_ = count_faces();
         for (TDF_LabelSequence::Iterator each(roots); each.More(); each.Next()) {
-            if (const auto node = place(each.Value(), Colors::none, {})) model_.roots.push_back(*node);
+            if (const auto node = place(each.Value(), Colors::none, {}, Usages::none)) model_.roots.push_back(*node);
         }
         std::uint64_t all = 0;
         for (const std::uint64_t n : model_.counts.faces) all += n;
@@ -67,19 +62,7 @@ public:
     }
 
 private:
-    // Adds an instance to the way down to it, as long as it lives.
-    class InPlace {
-    public:
-        InPlace(std::vector<TDF_Label>& way, const TDF_Label& label, bool is_instance) : way_(way), size_(way.size()) {
-            if (is_instance) way_.push_back(label);
-        }
-        ~InPlace() { way_.resize(size_); }
-
-    private:
-        std::vector<TDF_Label>& way_;
-        std::size_t size_;
-    };
-    // What a label shows, wherever it stands (unless the document says otherwise of one place). Colours from above count only for what has none, so the same label under another colour is another.
+    // What a label shows, wherever it stands (as far as no usage begun above goes on in it). Colours from above count only for what has none, so the same label under another colour is another.
     struct Content {
         std::uint32_t part = CadNode{}.part;
         std::vector<std::uint32_t> colors, children;
@@ -121,11 +104,10 @@ private:
     }
 
     // The node of a free shape or of a component; nothing if there is nothing to see.
-    std::optional<std::uint32_t> place(const TDF_Label& label, std::uint32_t color_above, const std::string& name_above) {
+    std::optional<std::uint32_t> place(const TDF_Label& label, std::uint32_t color_above, const std::string& name_above, Usages::Begun begun_above) {
         TDF_Label shown = label;
         const bool is_instance = XCAFDoc_ShapeTool::GetReferredShape(label, shown);
-        const InPlace in_place(way_, label, is_instance);
-        const TDF_Label usage = colors_.usage_of(way_);
+        const auto [usage, begun] = is_instance ? usages_.enter(begun_above, label) : Usages::Place{{}, begun_above};
         if (!colors_.visible(label) || (!usage.IsNull() && !colors_.visible(usage))) {
             ++hidden_;
             return std::nullopt;
@@ -136,7 +118,7 @@ private:
         CadNode node;
         const std::string name = name_of(label), product = name_of(shown);
         node.name = !made_up(name) ? name : !made_up(product) ? product : name_above;
-        const Content& content = content_of(shown, own != Colors::none ? own : color_above, own != Colors::none, made_up(product) ? node.name : product);
+        const Content& content = content_of(shown, own != Colors::none ? own : color_above, own != Colors::none, made_up(product) ? node.name : product, begun);
         if (content.faces == 0) return std::nullopt;
         if (is_instance) node.transform = affine(XCAFDoc_ShapeTool::GetLocation(label).Transformation());
         node.part = content.part, node.colors = content.colors, node.children = content.children;
@@ -144,12 +126,8 @@ private:
         return static_cast<std::uint32_t>(model_.nodes.size() - 1);
     }
 
-    const Content& content_of(const TDF_Label& label, std::uint32_t above, bool overriding, const std::string& name) {
-        std::string key = entry_of(label);
-        if (colors_.has_usages()) {
-            for (const TDF_Label& component : way_) key += " " + entry_of(component);
-        }
-        const auto [found, is_new] = contents_.try_emplace({key, above, overriding});
+    const Content& content_of(const TDF_Label& label, std::uint32_t above, bool overriding, const std::string& name, Usages::Begun begun) {
+        const auto [found, is_new] = contents_.try_emplace({entry_of(label), begun, above, overriding});
         Content& content = found->second;
         if (!is_new) return content;
         const std::uint32_t own = colors_.of(label);
@@ -160,7 +138,7 @@ private:
             std::vector<std::uint32_t> children;
             std::uint64_t faces = 0;
             for (TDF_LabelSequence::Iterator each(components); each.More(); each.Next()) {
-                if (const auto child = place(each.Value(), color, name)) children.push_back(*child), ++faces;
+                if (const auto child = place(each.Value(), color, name, begun)) children.push_back(*child), ++faces;
             }
             content.children = std::move(children), content.faces = faces;
             take_only_child(content, name);
@@ -215,8 +193,8 @@ private:
     const Progress& progress_;
     CadModel model_;
     Colors colors_;
-    std::vector<TDF_Label> way_;  // the instances that what is being placed stands in, outermost first
-    std::map<std::tuple<std::string, std::uint32_t, bool>, Content> contents_;
+    Usages usages_;
+    std::map<std::tuple<std::string, Usages::Begun, std::uint32_t, bool>, Content> contents_;
     std::map<std::string, PartFaces> parts_;
     std::vector<std::uint64_t> part_triangulated_;  // faces of each part that are shown as triangles
     std::uint64_t faces_ = 0, done_ = 0, hidden_ = 0;

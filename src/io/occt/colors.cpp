@@ -3,11 +3,9 @@
 #include <algorithm>
 
 #include <Quantity_ColorRGBA.hxx>
-#include <TDF_AttributeSequence.hxx>
 #include <TDF_LabelSequence.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
-#include <XCAFDoc_GraphNode.hxx>
 
 namespace crescente::io::occt {
 namespace {
@@ -38,31 +36,7 @@ private:
 }  // namespace
 
 Colors::Colors(const TDF_Label& main, std::vector<CadColor>& table)
-    : tool_(XCAFDoc_DocumentTool::ColorTool(main)), shapes_(XCAFDoc_DocumentTool::ShapeTool(main)), table_(table) {
-    TDF_LabelSequence all;
-    shapes_->GetShapes(all);
-    for (TDF_LabelSequence::Iterator each(all); each.More() && !has_usages_; each.Next()) {
-        TDF_LabelSequence components;
-        XCAFDoc_ShapeTool::GetComponents(each.Value(), components);
-        for (TDF_LabelSequence::Iterator component(components); component.More(); component.Next()) {
-            TDF_AttributeSequence usages;
-            has_usages_ = has_usages_ || XCAFDoc_ShapeTool::GetAllComponentSHUO(component.Value(), usages);
-        }
-    }
-}
-
-TDF_Label Colors::usage_of(const std::vector<TDF_Label>& components) const {
-    if (!has_usages_) return {};
-    for (std::size_t first = 0; first + 1 < components.size(); ++first) {
-        TDF_LabelSequence way;
-        for (std::size_t i = first; i < components.size(); ++i) way.Append(components[i]);
-        Handle(XCAFDoc_GraphNode) usage;
-        if (!XCAFDoc_ShapeTool::FindSHUO(way, usage)) continue;
-        const TDF_Label label = usage->Label();
-        if (tool_->IsSet(label, XCAFDoc_ColorSurf) || tool_->IsSet(label, XCAFDoc_ColorGen) || !visible(label)) return label;
-    }
-    return {};
-}
+    : tool_(XCAFDoc_DocumentTool::ColorTool(main)), shapes_(XCAFDoc_DocumentTool::ShapeTool(main)), table_(table) {}
 
 std::uint32_t Colors::index_of(const CadColor& color) {
     const auto found = std::find(table_.begin(), table_.end(), color);

@@ -27,12 +27,6 @@ public:
     // the part's label has the say.
     std::vector<std::uint32_t> of_faces(const TDF_Label& part, const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces);
 
-    // Where the document has a colour for the last of these components, or hides it, as it stands in the others, outermost first (a specified higher usage
-    // occurrence, SHUO): that label, else null. The longest way counts.
-    TDF_Label usage_of(const std::vector<TDF_Label>& components) const;
-    // Whether there is one at all.
-    bool has_usages() const { return has_usages_; }
-
     bool visible(const TDF_Label& label) const { return tool_->IsVisible(label); }
 
 private:
@@ -41,7 +35,6 @@ private:
     Handle(XCAFDoc_ColorTool) tool_;
     Handle(XCAFDoc_ShapeTool) shapes_;
     std::vector<CadColor>& table_;
-    bool has_usages_ = false;
 };
 
 }  // namespace crescente::io::occt
