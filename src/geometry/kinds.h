@@ -34,6 +34,12 @@ inline void prepare(Shape& shape) {
     }, shape);
 }
 
+// What a hit's primitive belongs to as users count: of a brep the face, of which it is one of perhaps several leaves; of others the primitive itself.
+inline std::uint32_t face_number(const Shape& shape, std::uint32_t primitive) {
+    const auto* brep = std::get_if<Brep>(&shape);
+    return brep ? brep->face_of(primitive) : primitive;
+}
+
 // The leaves of a shape that is made of patches, part by part; null for other shapes.
 inline const PatchLeaves* patch_leaves(const Shape& shape) {
     return std::visit([](const auto& s) -> const PatchLeaves* {

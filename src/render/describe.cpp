@@ -56,8 +56,8 @@ void describe_node(const Tile& tile, const World& world, const std::vector<Rgb>&
     const std::uint32_t owner = world.node_of_instance[node.instance];
     const std::string material = node.material < scene.materials.size() ? name_or(scene.materials[node.material].name, "material", node.material)
                                                                         : std::string("the default material");
-    const auto shape = scene.shapes[scene.nodes[owner].shape.value].shape.index();
-    out += pad + "  hits " + name_or(scene.nodes[owner].name, "node", owner) + " (" + std::string(geometry::shape_names[shape]) + format(", primitive %u", node.primitive) +
+    const geometry::Shape& shape = scene.shapes[scene.nodes[owner].shape.value].shape;
+    out += pad + "  hits " + name_or(scene.nodes[owner].name, "node", owner) + " (" + std::string(geometry::shape_names[shape.index()]) + format(", face %u", geometry::face_number(shape, node.primitive)) +
            ", " + material + ")" + (node.inside ? " from inside" : "") + "\n";
     out += pad + "  at " + text(node.position) + ", normal " + text(Vec3{node.normal[0], node.normal[1], node.normal[2]}) + "\n";
     out += pad + "  local light " + text(node.local) + "\n";

@@ -122,6 +122,12 @@ struct Tile {
     std::uint32_t corner(int x, int y) const { return corners[static_cast<std::size_t>(y) * (width + 1) + x]; }
 };
 
+// Empties a container and gives its memory back, which `= {}` does not.
+template <class Container>
+void release(Container& container) {
+    container = Container();
+}
+
 // Calls visit(child, way) for the children of a node that are not hidden, in the order in which their light is added.
 template <class Visit>
 void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {

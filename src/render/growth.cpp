@@ -299,11 +299,10 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     rays_.clear();
     shadow_nodes_.clear();
     for (PointLanes& p : points_) {
+        leave_out_of_reach(p, light);
         unsigned untried = 0;
         for (int i = 0; i < p.count; ++i) {
-            Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
-            if (!(p.lit >> i & 1) && may_arrive(share)) share = Share::behind;
-            else if (share == Share::untried) untried |= 1u << i;
+            if (tile_.shares[std::size_t{p.node[i]} * lights + light] == Share::untried) untried |= 1u << i;
         }
         if (!untried) continue;
         alignas(64) Ray rays[lane_count];

@@ -22,6 +22,9 @@ inline constexpr int subpixel_bits = 6;  // more than the most splits that the s
 constexpr std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
 constexpr LatticePoint point_of(std::uint64_t key) { return {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}; }
 
+// Of a pixel corner, by its coordinates in the picture.
+constexpr LatticePoint corner_point(int x, int y) { return {static_cast<std::uint32_t>(x) << subpixel_bits, static_cast<std::uint32_t>(y) << subpixel_bits}; }
+
 geometry::Ray camera_ray(const World& world, LatticePoint point);
 
 // What the camera sees through a point where nothing is met, if the environment has a backdrop.

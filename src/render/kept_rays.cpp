@@ -18,7 +18,7 @@ Bundle camera_bundle(const World& world, const Tile& tile) {
     Bounds origins, directions;
     for (const int x : {tile.x0, tile.x0 + tile.width}) {
         for (const int y : {tile.y0, tile.y0 + tile.height}) {
-            const geometry::Ray ray = camera_ray(world, {static_cast<std::uint32_t>(x) << subpixel_bits, static_cast<std::uint32_t>(y) << subpixel_bits});
+            const geometry::Ray ray = camera_ray(world, corner_point(x, y));
             origins.include(ray.origin), directions.include(ray.direction);
         }
     }

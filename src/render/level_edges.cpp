@@ -41,7 +41,7 @@ std::vector<Place> quads_at_depth(const Tile& tile, int depth) {
     std::uint32_t i = 0;
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x, ++i) {
-            places.push_back({i, {static_cast<std::uint32_t>(tile.x0 + x) << subpixel_bits, static_cast<std::uint32_t>(tile.y0 + y) << subpixel_bits}});
+            places.push_back({i, corner_point(tile.x0 + x, tile.y0 + y)});
         }
     }
     for (int d = 0; d < depth; ++d) {
@@ -89,7 +89,7 @@ void unsplit(Tile& tile, const scene::Settings& settings) {
     if (splits) keep_roots(tile.quads, tile), keep_roots(tile.quads_before, tile);
     if (!tile.quads.empty()) tile.quads_before = std::move(tile.quads);
     tile.quads = {};
-    if (!splits) tile.quads_before = {}, tile.subpixel_roots = {};
+    if (!splits) release(tile.quads_before), release(tile.subpixel_roots);
 }
 
 bool can_go_on(const Tile& tile, const Stage& stage) {
@@ -182,10 +182,10 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         tile.quads.push_back({{m[2], m[3], m[4], c[3]}, no_node});
     }
     tile.todo.clear();
-    tile.growing = {};
+    release(tile.growing);
     if (stage.parameter == growth.settings().supersampling) {
-        tile.subpixel_roots = {};
-        tile.quads_before = {};
+        release(tile.subpixel_roots);
+        release(tile.quads_before);
     }
     return true;
 }

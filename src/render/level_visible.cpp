@@ -60,7 +60,7 @@ bool advance_visible(Growth& growth, const Stage& stage, const Deadline& deadlin
     for_each_corner(tile, static_cast<int>(stage.parameter), [&](int x, int y) {
         std::uint32_t& corner = tile.corner(x, y);
         if (stopped || corner != no_node) return;
-        points.push_back({static_cast<std::uint32_t>(tile.x0 + x) << subpixel_bits, static_cast<std::uint32_t>(tile.y0 + y) << subpixel_bits});
+        points.push_back(corner_point(tile.x0 + x, tile.y0 + y));
         targets.push_back(&corner);
         if (points.size() == chunk_size) flush();
     });

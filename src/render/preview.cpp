@@ -99,7 +99,7 @@ private:
             const int x = columns_[i % columns_.size()], y = rows_[i / columns_.size()];
             std::uint32_t& root = tile_.corner(x, y);
             if (root == no_node) {
-                points.push_back({static_cast<std::uint32_t>(tile_.x0 + x) << subpixel_bits, static_cast<std::uint32_t>(tile_.y0 + y) << subpixel_bits});
+                points.push_back(corner_point(tile_.x0 + x, tile_.y0 + y));
                 targets.push_back(&root);
             } else {
                 corners_[i] = {root, unlit_[root] != 0, radiance_of(tile_, root), {}};

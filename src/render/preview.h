@@ -7,7 +7,7 @@
 
 namespace crescente::render {
 
-// For a tile that an edit touched and that is not settled, whose `pixels` are the old picture. Grows those corners of a coarse grid that are missing, lights what is seen through the others, and
+// For a tile that an edit touched and that is not settled, whose `pixels` are the picture before (with the weights of rays and the skies as they are now). Grows those corners of a coarse grid that are missing, lights what is seen through the others, and
 // from them makes the new `pixels`: where corners are gone, light interpolated between those of the grid; where something is to be lit anew, the old pixel with the
 // interpolated difference; elsewhere the old pixel. Nothing is done twice: what is traced and lit here is part of the trees. Tiles that were not further
 // than their shadows go on as they are.

@@ -27,7 +27,7 @@ struct Reprojected {
     std::vector<std::uint8_t> seen;  // whether a point was seen there
 };
 
-// The points of a picture as `camera`, of the same size, sees them: the nearest in each pixel, without those that show through gaps between nearer ones. Holes
+// The points of a picture, width x height of them, as `camera`, of the same size, sees them: the nearest in each pixel, without those that show through gaps between nearer ones. Holes
 // get the mean of what is around them (pull-push: Gortler, Grzeszczuk, Szeliski and Cohen 1996, "The Lumigraph", section 3.4). The same on any number of threads.
 Reprojected reproject(std::span<const SeenPoint> points, const CameraRays& camera, int width, int height, parallel::Pool& pool);
 

@@ -60,18 +60,15 @@ private:
     void place_roots() {
         place_.assign(tile_.nodes.size(), nowhere);
         for (int y = 0; y <= tile_.height && !tile_.corners.empty(); ++y) {
-            for (int x = 0; x <= tile_.width; ++x) place(tile_.corner(x, y), corner_point(x, y));
+            for (int x = 0; x <= tile_.width; ++x) place(tile_.corner(x, y), corner_point(tile_.x0 + x, tile_.y0 + y));
         }
         for (const auto& [key, root] : tile_.subpixel_roots) place(root, point_of(key));
         const std::vector<Quad>& quads = tile_.quads.empty() ? tile_.quads_before : tile_.quads;
         if (quads.empty()) return;
         std::uint32_t i = 0;
         for (int y = 0; y < tile_.height; ++y) {
-            for (int x = 0; x < tile_.width; ++x) place_parts(quads, i++, corner_point(x, y), 1u << subpixel_bits);
+            for (int x = 0; x < tile_.width; ++x) place_parts(quads, i++, corner_point(tile_.x0 + x, tile_.y0 + y), 1u << subpixel_bits);
         }
-    }
-    LatticePoint corner_point(int x, int y) const {
-        return {static_cast<std::uint32_t>(tile_.x0 + x) << subpixel_bits, static_cast<std::uint32_t>(tile_.y0 + y) << subpixel_bits};
     }
     void place(std::uint32_t root, LatticePoint at) {
         if (root != no_node) place_[root] = key_of(at);
@@ -390,6 +387,7 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const bool complete = tile.stage == static_cast<int>(level_of_stage.size()) && tile.quads_before.empty();
     if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
     tile.stage = std::min({tile.stage, stage, edges});
+    if (tile.stage == static_cast<int>(level_of_stage.size())) release(tile.pixels), tile.pixels_stage = -1;
     if (tile.previewed_until > 0) tile.previewed_until = stage <= shadows ? shadows + 1 : stage == reflections ? edges : 0;
 }
 

@@ -66,7 +66,7 @@ Progress Session::advance(const Deadline& deadline) {
             if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
             tile.going_on = false;
             if (keep) {
-                tile.pixels = {};
+                release(tile.pixels);
                 tile.pixels_stage = -1;
                 return tile.trim();
             }
@@ -93,7 +93,7 @@ Progress Session::advance(const Deadline& deadline) {
         if (deadline.passed()) break;
     }
     const int corners = static_cast<int>(visible_stages(s.world->scene.settings).size());
-    if (std::all_of(states.begin(), states.end(), [&](const TileState& state) { return state.shown_stage >= corners; })) s.seen = {};
+    if (std::all_of(states.begin(), states.end(), [&](const TileState& state) { return state.shown_stage >= corners; })) release(s.seen);
     s.render_seconds += std::chrono::duration<double>(Clock::now() - start).count();
     return s.progress(states);
 }
@@ -130,10 +130,10 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
         s.steps.clear();
         s.settled = true;
         s.cut_tiles();
-    } else if (s.world->camera != old->camera) {
+    } else if (const auto picture = s.world->camera != old->camera ? s.seen_anew(*old) : std::nullopt) {
         ++s.edits;
-        s.move_camera(*old);
-    } else if (change.touches_trees()) {
+        s.begin_anew(*picture);
+    } else if (change.touches_trees() || !s.steps.empty()) {  // what the steps before changed refers to the worlds on either side
         ++s.edits;
         s.settled = false;
         old->accelerator.reset();
@@ -237,7 +237,15 @@ std::vector<Area> Session::refresh(Frame& frame) const {
     return areas;
 }
 
-void Session::look_at(const Area& area) { state_->attended = area; }
+void Session::look_at(const Area& area) {
+    const auto clip = [](int first, int extent, int whole) {
+        const auto from = std::clamp<std::int64_t>(first, 0, whole), to = std::clamp<std::int64_t>(std::int64_t{first} + extent, 0, whole);
+        return std::pair(static_cast<int>(from), static_cast<int>(to - from));
+    };
+    const auto [x, width] = clip(area.x, area.width, state_->width());
+    const auto [y, height] = clip(area.y, area.height, state_->height());
+    state_->attended = {x, y, width, height};
+}
 
 const scene::Scene& Session::scene() const { return state_->world->scene; }
 
@@ -260,7 +268,8 @@ std::optional<Pick> Session::pick(int x, int y) {
     if (root == no_node || trees.nodes[root].left_scene()) return {};
     const Node& node = trees.nodes[root];
     const bool named = node.material < s.world->scene.materials.size();
-    return Pick{scene::path_to(s.world->scene, s.world->identity[node.instance]), node.primitive, named ? scene::MaterialId{node.material} : scene::MaterialId{},
+    const std::uint32_t face = geometry::face_number(*s.world->instances[node.instance].shape, node.primitive);
+    return Pick{scene::path_to(s.world->scene, s.world->identity[node.instance]), face, named ? scene::MaterialId{node.material} : scene::MaterialId{},
                 node.position, {node.normal[0], node.normal[1], node.normal[2]}};
 }
 

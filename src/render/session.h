@@ -41,7 +41,7 @@ struct Stats {
 struct Progress {
     bool done = false;
     std::string level;      // what is being worked on
-    double fraction = 0;    // of the whole picture, 0..1, never falls
+    double fraction = 0;    // of the whole picture, 0..1, falls only by an edit
     bool first_picture = false;  // the coarsest grid covers the whole frame: picture() is whole
 };
 
@@ -59,7 +59,7 @@ struct Frame {
 // What the camera sees through a pixel.
 struct Pick {
     std::vector<scene::NodeId> path;  // from a root of the scene down to the node with the shape
-    std::uint32_t primitive = 0;      // of the shape: the face of a CAD part, the triangle of a mesh
+    std::uint32_t face = 0;           // of the shape, from 0: of a CAD part its face, of a mesh the triangle
     scene::MaterialId material;       // not valid: the default one
     math::Vec3 position, normal;      // in the world; the normal is that of shading, unit, on the side of the viewer
 };
@@ -108,7 +108,7 @@ public:
     std::vector<Area> refresh(Frame& frame) const;
 
     // Where the user looks: once the whole frame has a first picture, tiles in the area grow before the others, and these in the order of their distance
-    // from it. Empty: nowhere in particular. The converged picture is the same.
+    // from it. Empty, or outside of the picture: nowhere in particular. The converged picture is the same.
     void look_at(const Area& area);
 
     // The surface that the camera sees through a pixel, from the trees that are kept; nothing if that is the background, not known yet, or outside the

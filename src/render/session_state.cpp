@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -74,7 +75,7 @@ bool Session::State::catch_up(const Deadline& deadline) {
 void Session::State::cut_tiles() {
     for (const Tile& tile : tiles) past_rays += tile.rays, past_tests += tile.tests;
     tiles.clear();
-    seen = {};
+    release(seen);
     ++clock;
     for (int y = 0; y < height(); y += tile_size()) {
         for (int x = 0; x < width(); x += tile_size()) {
@@ -87,17 +88,26 @@ void Session::State::cut_tiles() {
     }
 }
 
-void Session::State::move_camera(const World& before) {
-    const auto shadows = std::find(level_of_stage.begin(), level_of_stage.end(), scene::Level::shadows) - level_of_stage.begin();
+std::optional<Reprojected> Session::State::seen_anew(const World& before) try {
+    const std::size_t pixels = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    const auto ceiling = static_cast<std::uint64_t>(world->scene.settings.memory);
+    constexpr std::uint64_t bytes = 64, share = 4;  // a pixel, in all that is needed here; of what may be kept
+    if (ceiling > 0 && pixels * bytes > ceiling / share) return {};
     const int complete = static_cast<int>(visible_stages(world->scene.settings).size());
     const auto has_corners = [&](const Tile& tile) { return tile.stage >= complete; };
     if (seen.empty() || std::all_of(tiles.begin(), tiles.end(), has_corners)) {
-        seen.assign(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()), {});
+        seen.assign(pixels, {});
         pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], before.environment.backdrop, width(), seen); });
     }
-    const Reprojected picture = reproject(seen, world->camera, width(), height(), pool);
+    return reproject(seen, world->camera, width(), height(), pool);
+} catch (const std::bad_alloc&) {
+    release(seen);
+    return {};
+}
+
+void Session::State::begin_anew(const Reprojected& picture) {
+    const auto shadows = std::find(level_of_stage.begin(), level_of_stage.end(), scene::Level::shadows) - level_of_stage.begin();
     const bool reuse = world->scene.settings.memory == 0;
-    if (!reuse) seen = {};  // under a ceiling moves that follow each other start from what the one before has grown
     ++clock;
     pool.for_each(tiles.size(), [&](std::size_t i) {
         Tile& tile = tiles[i];
@@ -136,7 +146,7 @@ bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadlin
         const Stage& stage = stages[static_cast<std::size_t>(tile.stage)];
         if (!kind_of(stage.level).advance(growth, stage, deadline)) return false;
         tile.cursor = 0;
-        if (++tile.stage == 1 && !tile.shows_pixels() && tile.previewed_until == 0) tile.pixels = {};  // of before an edit that left no tree
+        if (++tile.stage == 1 && !tile.shows_pixels() && tile.previewed_until == 0) release(tile.pixels);  // of before an edit that left no tree
         if (tile.stage < until && deadline.passed()) return false;
     }
     return true;

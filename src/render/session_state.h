@@ -5,6 +5,7 @@
 #include <chrono>
 #include <deque>
 #include <mutex>
+#include <optional>
 
 #include "parallel/pool.h"
 #include "render/change.h"
@@ -55,7 +56,8 @@ struct Session::State {
 
     void plan_stages();
     void cut_tiles();
-    void move_camera(const World& before);  // the tiles begin anew; until there is more they show the old picture as the camera now sees it
+    std::optional<Reprojected> seen_anew(const World& before);  // the old picture as the camera now sees it; nothing: memory is too scarce for that
+    void begin_anew(const Reprojected& picture);                // the trees; until there is more the tiles show the picture
     bool revise(Tile& tile, bool watched);    // whether there was an edit that it did not know
     bool catch_up(const Deadline& deadline);  // all tiles; whether there was time for it
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;

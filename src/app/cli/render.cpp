@@ -106,7 +106,7 @@ std::string pick_text(const scene::Scene& scene, const std::optional<render::Pic
     out << "object    ";
     for (const scene::NodeId& id : pick->path) out << (&id == &pick->path.front() ? "" : " / ") << name_or(scene.nodes[id.value].name, "node", id.value);
     const geometry::Shape& shape = scene.shapes[scene.nodes[pick->path.back().value].shape.value].shape;
-    out << "\nshape     " << geometry::shape_names[shape.index()] << ", primitive " << pick->primitive << "\nmaterial  "
+    out << "\nshape     " << geometry::shape_names[shape.index()] << ", face " << pick->face << "\nmaterial  "
         << (pick->material.valid() ? name_or(scene.materials[pick->material.value].name, "material", pick->material.value) : "the default material");
     const auto coordinates = [&](const char* label, math::Vec3 v) { out << "\n" << label << v.x << " " << v.y << " " << v.z; };
     out << std::setprecision(9);

@@ -22,6 +22,7 @@ nlohmann::ordered_json stats_json(const render::Stats& stats) {
          {{"box", stats.tests.box_tests},
           {"shape", stats.tests.shape_tests},
           {"shadow_cache_hits", stats.tests.shadow_cache_hits},
+          {"kept_rays", stats.tests.kept_rays},
           {"shortcut_rays", stats.tests.shortcut_rays},
           {"shortcut_wrong", stats.tests.shortcut_wrong}}},
         {"memory",
