@@ -458,6 +458,26 @@ TEST(Edits, ManyEditsDoNotMakeTheForestGrow) {
     EXPECT_TRUE(same_picture(finished(session.scene()).picture(true), session.picture(true)));
 }
 
+// What one edit moved is looked for only after others that touch no tree.
+TEST(Edits, ThoseThatTouchNoTreeMayFollowBeforeTheyAreLookedAt) {
+    Scene scene = still_life();
+    PhysicalMaterial sheet;
+    sheet.double_sided = false;
+    scene.materials.push_back({"sheet", sheet});
+    scene.nodes[1].materials = {{static_cast<std::uint32_t>(scene.materials.size() - 1)}};
+    Session session = finished(scene);
+    scene::SetNode move{{1}, scene.nodes[1]};
+    move.value.transform = at({0.4, 0.1, 0.3}) * move.value.transform;
+    ASSERT_TRUE(session.edit({move}));
+    scene::Settings settings = scene.settings;
+    for (int i = 0; i < 3; ++i) {
+        settings.threads = 1 + i;
+        ASSERT_TRUE(session.edit({scene::SetSettings{settings}}));
+    }
+    converge(session);
+    EXPECT_TRUE(same_picture(finished(session.scene()).picture(true), session.picture(true)));
+}
+
 TEST(Edits, AnEditThatBreaksTheSceneIsRefusedWhole) {
     const Scene scene = still_life();
     const scene::Image picture = finished(scene).picture(true);
