@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "base/byte_archive.h"
+#include "render/counts_archive.h"
 
 namespace crescente::render {
 namespace {
@@ -78,8 +79,9 @@ template <class Archive>
 void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
-    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, corners, pending, growing, quads, quads_before, subpixel_roots, stage, cursor,
-                            todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed, unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
+    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
+                            cursor, todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
+                            unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
     map(a, filtered), map(a, straight);
@@ -93,7 +95,7 @@ void columns(Archive& a, Tile& tile) {
     value(a, pixels_stage);
     value(a, going_on), value(a, lit), value(a, untried), value(a, split_anew);
     value(a, forgotten);
-    value(a, ray_counts), value(a, test_counts);
+    counts(a, ray_counts), counts(a, test_counts);
 }
 
 }  // namespace

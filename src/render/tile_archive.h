@@ -9,7 +9,8 @@
 
 namespace crescente::render {
 
-// All that the tile holds but its place and what its nodes say themselves. It must know all edits. Appended to `bytes`.
+// All that the tile holds but its place, what its nodes say themselves, and previews: what is shown is what its trees say. It must know all edits. Appended to
+// `bytes`.
 void append_tile(Tile& tile, std::string& bytes);
 
 // The tile again, at the place of `place`. Nothing if the bytes are not whole. They may be hostile: no more is allocated than they hold, but whether the

@@ -4,9 +4,12 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
+#include <map>
+#include <set>
 
 #include "render/checkpoint.h"
-#include "render/checkpoint_file.h"
+#include "render/checkpoint_seeds.h"
 #include "render/film.h"
 #include "render/level.h"
 #include "render/scenes.h"
@@ -193,6 +196,69 @@ TEST_F(CheckpointFile, ANoteIsReadWithoutTheScene) {
     EXPECT_EQ(head->settings.width, 48);
 }
 
+// --- The seeds of fuzzing
+
+Tile blank_seed_tile() {
+    Tile tile;
+    tile.width = 8, tile.height = 6;
+    return tile;
+}
+
+// After each stage, amid the splitting of pixels, with nothing but pixels; and a whole file.
+std::map<std::string, std::string> fresh_seeds() {
+    std::map<std::string, std::string> seeds;
+    const auto keep = [&](const std::string& name, Tile& tile) {
+        std::string& bytes = seeds[name] = "t";
+        append_tile(tile, bytes);
+    };
+    const auto world = world_of(seed_scene());
+    Tile tile = blank_seed_tile();
+    const std::atomic<bool> stop = true;
+    Deadline now;
+    now.stop = &stop;
+    for (const Stage& stage : stages_of(seed_scene().settings)) {
+        Growth growth(**world, tile, false);
+        while (!levels()[static_cast<std::size_t>(stage.level)].advance(growth, stage, now)) {
+            if (stage.level == scene::Level::edges && !tile.subpixel_roots.empty()) keep("tile_amid_edges", tile);
+        }
+        tile.cursor = 0, ++tile.stage;
+        keep("tile_" + std::to_string(tile.stage), tile);
+    }
+    for (const bool whole : {false, true}) {
+        scene::Scene scene = seed_scene();
+        if (!whole) scene.settings.memory = 1, scene.settings.keep = false;
+        Session session = finished(scene);
+        const std::string bytes = saved(session);
+        seeds[whole ? "whole" : "tile_dropped"] = whole ? "w" + bytes : "t" + bytes.substr(end_of_head(bytes) + 16);
+    }
+    return seeds;
+}
+
+TEST(CheckpointSeeds, AreAllAccepted) {
+    const std::filesystem::path corpus = std::filesystem::path(CRESCENTE_ROOT) / "tests" / "fuzz" / "corpus" / "checkpoint";
+    if (std::getenv("CRESCENTE_WRITE_SEEDS")) {
+        for (const auto& [name, bytes] : fresh_seeds()) write_bytes(corpus / name, bytes);
+    }
+    const auto file = std::filesystem::temp_directory_path() / ("crescente-seeds-" + std::to_string(getpid()) + ".checkpoint");
+    std::set<std::string> names;
+    std::size_t filtered = 0, straight = 0, subpixel_roots = 0, pixels = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
+        SCOPED_TRACE(names.emplace(entry.path().filename().string()).first->c_str());
+        const std::string seed = bytes_of(entry.path());
+        ASSERT_FALSE(seed.empty());
+        write_bytes(file, file_of_seed(seed));
+        const auto session = Session::resume(seed_scene(), file);
+        EXPECT_TRUE(session) << session.error().text();
+        if (seed[0] != 't') continue;
+        const auto tile = tile_of(std::string_view(seed).substr(1), blank_seed_tile());
+        ASSERT_TRUE(tile);
+        filtered += tile->filtered.size(), straight += tile->straight.size(), subpixel_roots += tile->subpixel_roots.size(), pixels += tile->pixels.size();
+    }
+    std::filesystem::remove(file);
+    for (const auto& [name, bytes] : fresh_seeds()) EXPECT_TRUE(names.contains(name)) << name;
+    EXPECT_GT(std::min({filtered, straight, subpixel_roots, pixels}), 0u) << "a column that no seed has";
+}
+
 // --- Files that are refused
 
 TEST_F(CheckpointFile, WhatIsNotThereOrNoCheckpointIsRefused) {
@@ -214,7 +280,7 @@ TEST_F(CheckpointFile, OtherVersionsAreRefused) {
     std::string other = bytes;
     other[17] = 77;
     write_bytes(file, other);
-    EXPECT_NE(refusal(session.scene()).find("is a checkpoint of version 77, this program reads version 1"), std::string::npos) << refusal(session.scene());
+    EXPECT_NE(refusal(session.scene()).find("is a checkpoint of version 77, this program reads version " + std::to_string(checkpoint_version)), std::string::npos) << refusal(session.scene());
     other = bytes;
     other[37 + 8] = '9';  // the program's version, after its length
     write_bytes(file, resealed(other));
