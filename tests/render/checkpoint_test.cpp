@@ -2,19 +2,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <csignal>
-#include <cstdlib>
-#include <map>
-#include <set>
 
 #include "render/checkpoint.h"
 #include "render/checkpoint_seeds.h"
-#include "render/film.h"
-#include "render/level.h"
 #include "render/scenes.h"
-#include "render/tile_archive.h"
-#include "render/tile_check.h"
 
 namespace crescente::render::testing {
 namespace {
@@ -48,7 +40,6 @@ protected:
 
     std::filesystem::path folder, file;
 };
-
 
 void expect_same_counts(const Stats& a, const Stats& b) {
     EXPECT_EQ(a.rays.camera, b.rays.camera);
@@ -91,51 +82,6 @@ TEST_F(CheckpointFile, InterruptedAnywhereThePictureAndTheRaysAreThoseOfAnUninte
         EXPECT_GT(saves, 1);
         EXPECT_TRUE(same_picture(whole.picture(true), session.picture(true)));
         if (scene.settings.memory == 0) expect_same_counts(whole.stats(), session.stats());
-    }
-}
-
-// Every state between two chunks of rays, of every stage: as bytes and back.
-TEST(TileArchive, ATileThatWasStoppedAnywhereGoesOnFromItsBytes) {
-    for (const bool unseen : {false, true}) {
-        Scene scene = still_life();
-        scene.settings.width = 32, scene.settings.height = 24;
-        const auto world = world_of(scene);
-        ASSERT_TRUE(world);
-        const std::vector<Stage> stages = stages_of(scene.settings);
-        Tile stopped, straight;
-        for (Tile* t : {&stopped, &straight}) t->width = 32, t->height = 24;
-        const std::atomic<bool> stop = true;
-        Deadline now;
-        now.stop = &stop;
-        std::size_t amid_splitting = 0, with_growing = 0;
-        for (const Stage& stage : stages) {
-            SCOPED_TRACE(stopped.stage);
-            const auto advance = levels()[static_cast<std::size_t>(stage.level)].advance;
-            if (unseen && straight.stage == 1) {  // what was seen before nobody looks any more
-                for (Tile* t : {&stopped, &straight}) t->pixels = develop(*t), t->pixels_stage = 1;
-            }
-            for (bool done = false; !done;) {
-                Growth growth(**world, stopped, unseen && stopped.stage > 0);
-                done = advance(growth, stage, now);
-                if (done) stopped.cursor = 0, ++stopped.stage;
-                amid_splitting += stage.level == scene::Level::edges && stopped.cursor > 0, with_growing += !stopped.growing.empty();
-                std::string bytes;
-                append_tile(stopped, bytes);
-                auto again = tile_of(bytes, stopped);
-                ASSERT_TRUE(again);
-                ASSERT_EQ(tile_problem(*again, **world, stages), "");
-                stopped = std::move(*again);
-            }
-            Growth growth(**world, straight, unseen && straight.stage > 0);
-            ASSERT_TRUE(advance(growth, stage, Deadline::never()));
-            straight.cursor = 0, ++straight.stage;
-            ASSERT_EQ(stopped.nodes.size(), straight.nodes.size());
-            const std::vector<Rgb> x = radiances(stopped), y = radiances(straight);
-            EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(Rgb)), 0);
-        }
-        EXPECT_GT(amid_splitting, 10u);
-        EXPECT_GT(with_growing, 10u);
-        EXPECT_EQ(stopped.rays.total(), straight.rays.total());
     }
 }
 
@@ -194,69 +140,6 @@ TEST_F(CheckpointFile, ANoteIsReadWithoutTheScene) {
     ASSERT_TRUE(head) << head.error().text();
     EXPECT_EQ(head->note, "after the third edit");
     EXPECT_EQ(head->settings.width, 48);
-}
-
-// --- The seeds of fuzzing
-
-Tile blank_seed_tile() {
-    Tile tile;
-    tile.width = 8, tile.height = 6;
-    return tile;
-}
-
-// After each stage, amid the splitting of pixels, with nothing but pixels; and a whole file.
-std::map<std::string, std::string> fresh_seeds() {
-    std::map<std::string, std::string> seeds;
-    const auto keep = [&](const std::string& name, Tile& tile) {
-        std::string& bytes = seeds[name] = "t";
-        append_tile(tile, bytes);
-    };
-    const auto world = world_of(seed_scene());
-    Tile tile = blank_seed_tile();
-    const std::atomic<bool> stop = true;
-    Deadline now;
-    now.stop = &stop;
-    for (const Stage& stage : stages_of(seed_scene().settings)) {
-        Growth growth(**world, tile, false);
-        while (!levels()[static_cast<std::size_t>(stage.level)].advance(growth, stage, now)) {
-            if (stage.level == scene::Level::edges && !tile.subpixel_roots.empty()) keep("tile_amid_edges", tile);
-        }
-        tile.cursor = 0, ++tile.stage;
-        keep("tile_" + std::to_string(tile.stage), tile);
-    }
-    for (const bool whole : {false, true}) {
-        scene::Scene scene = seed_scene();
-        if (!whole) scene.settings.memory = 1, scene.settings.keep = false;
-        Session session = finished(scene);
-        const std::string bytes = saved(session);
-        seeds[whole ? "whole" : "tile_dropped"] = whole ? "w" + bytes : "t" + bytes.substr(end_of_head(bytes) + 16);
-    }
-    return seeds;
-}
-
-TEST(CheckpointSeeds, AreAllAccepted) {
-    const std::filesystem::path corpus = std::filesystem::path(CRESCENTE_ROOT) / "tests" / "fuzz" / "corpus" / "checkpoint";
-    if (std::getenv("CRESCENTE_WRITE_SEEDS")) {
-        for (const auto& [name, bytes] : fresh_seeds()) write_bytes(corpus / name, bytes);
-    }
-    const auto file = std::filesystem::temp_directory_path() / ("crescente-seeds-" + std::to_string(getpid()) + ".checkpoint");
-    std::set<std::string> names;
-    std::size_t filtered = 0, straight = 0, subpixel_roots = 0, pixels = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
-        SCOPED_TRACE(names.emplace(entry.path().filename().string()).first->c_str());
-        const std::string seed = bytes_of(entry.path());
-        ASSERT_FALSE(seed.empty());
-        write_bytes(file, file_of_seed(seed));
-        const auto session = Session::resume(seed_scene(), file);
-        EXPECT_TRUE(session) << session.error().text();
-        if (seed[0] != 't') continue;
-        const auto tile = tile_of(std::string_view(seed).substr(1), blank_seed_tile());
-        ASSERT_TRUE(tile);
-        filtered += tile->filtered.size(), straight += tile->straight.size(), subpixel_roots += tile->subpixel_roots.size(), pixels += tile->pixels.size();
-    }
-    std::filesystem::remove(file);
-    for (const auto& [name, bytes] : fresh_seeds()) EXPECT_TRUE(names.contains(name)) << name;
-    EXPECT_GT(std::min({filtered, straight, subpixel_roots, pixels}), 0u) << "a column that no seed has";
 }
 
 // --- Files that are refused
