@@ -110,7 +110,10 @@ private:
     bool roots_hold() const {
         if (tile_.corners.size() != static_cast<std::size_t>(tile_.width + 1) * static_cast<std::size_t>(tile_.height + 1)) return false;
         const bool all_there = tile_.stage >= first_stage_after(scene::Level::visible);
-        if (!std::all_of(tile_.corners.begin(), tile_.corners.end(), [&](std::uint32_t i) { return is_root(i) || (i == no_node && !all_there); })) return false;
+        std::vector<std::uint8_t> taken(tile_.nodes.size());  // each corner has its own root: what goes down from all of them comes to a node once
+        for (const std::uint32_t root : tile_.corners) {
+            if (root == no_node ? all_there : !is_root(root) || std::exchange(taken[root], 1)) return false;
+        }
         return std::all_of(tile_.subpixel_roots.begin(), tile_.subpixel_roots.end(), [&](const auto& entry) { return is_root(entry.second); });
     }
 

@@ -183,6 +183,7 @@ TEST(TileCheck, ATreeIsATreeAndSeesSomething) {
         EXPECT_EQ(problem([&](Tile&, Node& n) { n.normal[0] *= scale, n.normal[1] *= scale, n.normal[2] *= scale; }), no_part) << scale;
         EXPECT_EQ(problem([&](Tile& t, Node&) { t.nodes[sky].position = t.nodes[sky].position * double{scale}; }), no_part) << scale;
     }
+    EXPECT_EQ(problem([](Tile& t, Node&) { t.corners[1] = t.corners[0]; }), "has a pixel corner without a tree") << "of its own";
     EXPECT_EQ(problem([](Tile&, Node& n) { n.position.x = std::numeric_limits<double>::infinity(); }), no_part);
     EXPECT_EQ(problem([&](Tile&, Node& n) { n.position = (*world)->camera.viewer_of(n.position); }), no_part) << "where the viewer is";
     EXPECT_EQ(problem([](Tile& t, Node& n) { t.nodes[n.refracted].position = n.position; }), no_part) << "where its parent is";
