@@ -13,6 +13,7 @@
 #include "base/atomic_file.h"
 #include "base/byte_archive.h"
 #include "base/checksum.h"
+#include "render/counts_archive.h"
 #include "render/level.h"
 #include "render/tile_archive.h"
 #include "render/tile_check.h"
@@ -59,8 +60,9 @@ void head_of(Archive& a, CheckpointHead& head) {
     value(a, head.scene);
     for_each_tree_setting([&](const Field<scene::Settings>& field) { tree_setting(a, head.settings, field); });
     SessionCounts& c = head.counts;
-    array(a, c.level_seconds), array(a, c.level_rays);
-    value(a, c.past_rays), value(a, c.past_tests), value(a, c.render_seconds);
+    array(a, c.level_seconds);
+    list(a, c.level_rays, sizeof(RayCounts), [&](RayCounts& rays) { counts(a, rays); });
+    counts(a, c.past_rays), counts(a, c.past_tests), value(a, c.render_seconds);
     value(a, c.peak_bytes), value(a, c.drops), value(a, c.dropped_bytes), value(a, c.dropped_nodes), value(a, c.revised);
 }
 
@@ -76,7 +78,7 @@ struct SectionHead {
 };
 constexpr std::uint64_t head_section = 0, first_tile_section = 1;
 
-// Empty sections of tiles, each at its place.
+// Empty tiles, each at its place.
 std::vector<Tile> blank_tiles(const scene::Settings& s) {
     std::vector<Tile> tiles;
     for (int y = 0; y < s.height; y += s.tile) {

@@ -4,6 +4,8 @@
 #include <bit>
 
 #include "base/byte_archive.h"
+#include "render/counts_archive.h"
+#include "render/growth.h"
 
 namespace crescente::render {
 namespace {
@@ -62,38 +64,50 @@ void rays(Archive& a, std::vector<Pending>& v) {
         p = {record.parent, record.weight, record.influence, static_cast<Way>(record.way)};
     });
 }
-// In the order of its keys, so that the same tile gives the same bytes.
-template <class Archive, class Key, class Value>
-void map(Archive& a, std::unordered_map<Key, Value>& v) {
+// In the order of its keys, so that the same tile gives the same bytes. Nothing that is read gets into the map before all keys ascend and are such as a tile
+// can have: numbers are their own hash, and many that fall into one bucket would take for ever.
+template <class Archive, class Key, class Value, class IsKey>
+void map(Archive& a, std::unordered_map<Key, Value>& v, IsKey&& is_key) {
     std::vector<std::pair<Key, Value>> entries(v.begin(), v.end());
     std::sort(entries.begin(), entries.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
     list(a, entries, sizeof(Key) + sizeof(Value), [&](auto& entry) { value(a, entry.first), value(a, entry.second); });
     if constexpr (std::is_same_v<Archive, ByteReader>) {
+        const auto ascend_not = [](const auto& x, const auto& y) { return x.first >= y.first; };
+        if (std::adjacent_find(entries.begin(), entries.end(), ascend_not) != entries.end()) a.fail();
+        if (!std::all_of(entries.begin(), entries.end(), [&](const auto& entry) { return is_key(entry.first); })) a.fail();
         if (a.good()) v = {entries.begin(), entries.end()};
-        if (v.size() != entries.size()) a.fail();
     }
+}
+
+bool is_within(LatticePoint p, const Tile& tile) {
+    const auto along = [](std::uint32_t at, int first, int extent) {
+        return at >= static_cast<std::uint32_t>(first) << subpixel_bits && at <= static_cast<std::uint32_t>(first + extent) << subpixel_bits;
+    };
+    return along(p.x, tile.x0, tile.width) && along(p.y, tile.y0, tile.height);
 }
 
 template <class Archive>
 void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
-    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, corners, pending, growing, quads, quads_before, subpixel_roots, stage, cursor,
-                            todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed, unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
+    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
+                            cursor, todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
+                            unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
-    map(a, filtered), map(a, straight);
+    map(a, filtered, [&](std::uint64_t key) { return key < tile.shares.size(); });
+    map(a, straight, [&](std::uint32_t key) { return key < tile.nodes.size(); });
     array(a, corners);
     rays(a, pending), rays(a, growing);
     array(a, quads), array(a, quads_before);
-    map(a, subpixel_roots);
+    map(a, subpixel_roots, [&](std::uint64_t key) { return is_within(point_of(key), tile); });
     value(a, stage), value(a, cursor);
     array(a, todo);
     array(a, pixels);
     value(a, pixels_stage);
     value(a, going_on), value(a, lit), value(a, untried), value(a, split_anew);
     value(a, forgotten);
-    value(a, ray_counts), value(a, test_counts);
+    counts(a, ray_counts), counts(a, test_counts);
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
 #include "render/tile_check.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "render/level_edges.h"
 
 namespace crescente::render {
 namespace {
 
-bool is_finite(const std::array<float, 3>& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+bool is_unit(Vec3 v) { return std::abs(length(v) - 1) < 1e-3; }  // up to rounding
 
 // One more than the largest primitive that a hit on the shape can name.
 std::uint32_t primitives(const geometry::Shape& shape) {
@@ -32,7 +33,7 @@ public:
         }
     }
 
-    std::string run() const {
+    std::string run() {
         if (!progress_holds()) return "says it is farther than it is";
         if (tile_.corners.empty()) return is_blank() ? "" : "has trees without roots";
         if (!nodes_hold()) return "has a node that is no part of a tree, or of nothing in the scene";
@@ -66,43 +67,54 @@ private:
                tile_.quads.empty() && tile_.quads_before.empty() && tile_.subpixel_roots.empty() && tile_.todo.empty() && tile_.stage == 0 && tile_.cursor == 0;
     }
 
-    bool nodes_hold() const {
+    bool nodes_hold() {
         if (tile_.nodes.size() >= no_node) return false;
+        // Each but a root is one child of its parent: what goes down the trees comes to a node once.
+        sent_.assign(tile_.nodes.size(), 0);
+        std::vector<std::uint8_t> met(tile_.nodes.size());
+        const auto meet = [&](std::uint32_t child, std::uint32_t parent, Way way) {
+            if (child == no_node) return true;
+            return child < tile_.nodes.size() && tile_.nodes[child].parent == parent && !std::exchange(met[child], 1) && send(parent, way);
+        };
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            if (!ends_somewhere(tile_.nodes[i]) || !has_its_place(i)) return false;
+            const Node& node = tile_.nodes[i];
+            if (!has_its_place(node, i) || !ends_somewhere(node)) return false;
+            if (!meet(node.reflected, i, Way::reflected) || !meet(node.refracted, i, Way::refracted)) return false;
         }
-        return std::all_of(tile_.straight.begin(), tile_.straight.end(), [&](const auto& entry) { return is_child(entry.second, entry.first); });
+        for (const auto& [parent, child] : tile_.straight) {
+            if (child == no_node || !meet(child, parent, Way::straight)) return false;
+        }
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            if (is_root(i) == (met[i] != 0)) return false;
+        }
+        return true;
     }
+    // Its parent must have its place.
     bool ends_somewhere(const Node& node) const {
-        if (!math::is_finite(node.position) || !is_finite(node.normal) || !std::isfinite(node.offset)) return false;
-        if (node.material >= world_.lobes.size()) return false;
-        if (node.left_scene()) return true;
+        if (!math::is_finite(node.position) || !std::isfinite(node.offset) || node.material >= world_.lobes.size()) return false;
+        if (node.left_scene()) return is_unit(node.position);
+        if (!is_unit({node.normal[0], node.normal[1], node.normal[2]})) return false;
+        // What lights a node and sends its rays looks from it to the viewer.
+        const Vec3 viewer = node.parent == no_node ? world_.camera.viewer_of(node.position) : tile_.nodes[node.parent].position;
+        if (!is_unit(normalize(viewer - node.position))) return false;
         if (node.instance >= world_.instances.size() || node.primitive >= primitives_[node.instance]) return false;
         const Bounds& reach = reaches_[node.instance];
         return max(reach.lower, min(node.position, reach.upper)) == node.position;
     }
     // Depths make sure that no way up is longer than they can count.
-    bool has_its_place(std::uint32_t i) const {
-        const Node& node = tile_.nodes[i];
-        for (const std::uint32_t child : {node.reflected, node.refracted}) {
-            if (child != no_node && !is_child(child, i)) return false;
-        }
+    bool has_its_place(const Node& node, std::uint32_t i) const {
         if (node.parent == no_node) return node.depth == 0;
         return node.parent < i && !tile_.nodes[node.parent].left_scene() && node.depth == tile_.nodes[node.parent].depth + 1;
     }
-    bool is_child(std::uint32_t child, std::uint32_t parent) const { return child < tile_.nodes.size() && tile_.nodes[child].parent == parent; }
 
     bool roots_hold() const {
         if (tile_.corners.size() != static_cast<std::size_t>(tile_.width + 1) * static_cast<std::size_t>(tile_.height + 1)) return false;
         const bool all_there = tile_.stage >= first_stage_after(scene::Level::visible);
-        if (!std::all_of(tile_.corners.begin(), tile_.corners.end(), [&](std::uint32_t i) { return is_root(i) || (i == no_node && !all_there); })) return false;
-        return std::all_of(tile_.subpixel_roots.begin(), tile_.subpixel_roots.end(), [&](const auto& entry) {
-            const LatticePoint p = point_of(entry.first);
-            const auto within = [](std::uint32_t at, int first, int extent) {
-                return at >= static_cast<std::uint32_t>(first) << subpixel_bits && at <= static_cast<std::uint32_t>(first + extent) << subpixel_bits;
-            };
-            return is_root(entry.second) && within(p.x, tile_.x0, tile_.width) && within(p.y, tile_.y0, tile_.height);
-        });
+        std::vector<std::uint8_t> taken(tile_.nodes.size());  // each corner has its own root: what goes down from all of them comes to a node once
+        for (const std::uint32_t root : tile_.corners) {
+            if (root == no_node ? all_there : !is_root(root) || std::exchange(taken[root], 1)) return false;
+        }
+        return std::all_of(tile_.subpixel_roots.begin(), tile_.subpixel_roots.end(), [&](const auto& entry) { return is_root(entry.second); });
     }
 
     bool shares_hold() const {
@@ -112,13 +124,20 @@ private:
             if (tile_.shares[key] > Share::filtered) return false;
             if (tile_.shares[key] == Share::filtered && !tile_.filtered.contains(key)) return false;
         }
-        return std::all_of(tile_.filtered.begin(), tile_.filtered.end(), [&](const auto& entry) { return entry.first < tile_.shares.size(); });
+        return true;
     }
 
-    bool rays_hold(const std::vector<Pending>& rays) const {
+    bool rays_hold(const std::vector<Pending>& rays) {
         return std::all_of(rays.begin(), rays.end(), [&](const Pending& p) {
-            return p.parent < tile_.nodes.size() && !tile_.nodes[p.parent].left_scene() && tile_.nodes[p.parent].depth < 255;
+            return p.parent < tile_.nodes.size() && !tile_.nodes[p.parent].left_scene() && tile_.nodes[p.parent].depth < 255 && send(p.parent, p.way);
         });
+    }
+    // Whether the node can have sent this ray, which it does once.
+    bool send(std::uint32_t node, Way way) {
+        const auto bit = static_cast<std::uint8_t>(1 << static_cast<int>(way));
+        const bool again = sent_[node] & bit;
+        sent_[node] |= bit;
+        return tile_.nodes[node].spawned && !again;
     }
 
     // Parts come after what they are parts of, four by four, and belong to one quad only: nothing that goes down them goes in circles or multiplies.
@@ -156,6 +175,7 @@ private:
     std::span<const Stage> stages_;
     std::vector<std::uint32_t> primitives_;  // by instance
     std::vector<Bounds> reaches_;            // by instance
+    std::vector<std::uint8_t> sent_;         // by node: bit w if its ray of way w is a child or waits
 };
 
 }  // namespace

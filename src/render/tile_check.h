@@ -9,7 +9,7 @@
 
 namespace crescente::render {
 
-// What is wrong with the tile, else empty. `stages` are those of the settings that it grew by.
+// What is wrong with a tile that tile_of made, else empty. `stages` are those of the settings that it grew by.
 std::string tile_problem(const Tile& tile, const World& world, std::span<const Stage> stages);
 
 }  // namespace crescente::render

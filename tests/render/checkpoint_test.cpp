@@ -2,16 +2,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <csignal>
 
 #include "render/checkpoint.h"
-#include "render/checkpoint_file.h"
-#include "render/film.h"
-#include "render/level.h"
+#include "render/checkpoint_seeds.h"
 #include "render/scenes.h"
-#include "render/tile_archive.h"
-#include "render/tile_check.h"
 
 namespace crescente::render::testing {
 namespace {
@@ -45,7 +40,6 @@ protected:
 
     std::filesystem::path folder, file;
 };
-
 
 void expect_same_counts(const Stats& a, const Stats& b) {
     EXPECT_EQ(a.rays.camera, b.rays.camera);
@@ -88,51 +82,6 @@ TEST_F(CheckpointFile, InterruptedAnywhereThePictureAndTheRaysAreThoseOfAnUninte
         EXPECT_GT(saves, 1);
         EXPECT_TRUE(same_picture(whole.picture(true), session.picture(true)));
         if (scene.settings.memory == 0) expect_same_counts(whole.stats(), session.stats());
-    }
-}
-
-// Every state between two chunks of rays, of every stage: as bytes and back.
-TEST(TileArchive, ATileThatWasStoppedAnywhereGoesOnFromItsBytes) {
-    for (const bool unseen : {false, true}) {
-        Scene scene = still_life();
-        scene.settings.width = 32, scene.settings.height = 24;
-        const auto world = world_of(scene);
-        ASSERT_TRUE(world);
-        const std::vector<Stage> stages = stages_of(scene.settings);
-        Tile stopped, straight;
-        for (Tile* t : {&stopped, &straight}) t->width = 32, t->height = 24;
-        const std::atomic<bool> stop = true;
-        Deadline now;
-        now.stop = &stop;
-        std::size_t amid_splitting = 0, with_growing = 0;
-        for (const Stage& stage : stages) {
-            SCOPED_TRACE(stopped.stage);
-            const auto advance = levels()[static_cast<std::size_t>(stage.level)].advance;
-            if (unseen && straight.stage == 1) {  // what was seen before nobody looks any more
-                for (Tile* t : {&stopped, &straight}) t->pixels = develop(*t), t->pixels_stage = 1;
-            }
-            for (bool done = false; !done;) {
-                Growth growth(**world, stopped, unseen && stopped.stage > 0);
-                done = advance(growth, stage, now);
-                if (done) stopped.cursor = 0, ++stopped.stage;
-                amid_splitting += stage.level == scene::Level::edges && stopped.cursor > 0, with_growing += !stopped.growing.empty();
-                std::string bytes;
-                append_tile(stopped, bytes);
-                auto again = tile_of(bytes, stopped);
-                ASSERT_TRUE(again);
-                ASSERT_EQ(tile_problem(*again, **world, stages), "");
-                stopped = std::move(*again);
-            }
-            Growth growth(**world, straight, unseen && straight.stage > 0);
-            ASSERT_TRUE(advance(growth, stage, Deadline::never()));
-            straight.cursor = 0, ++straight.stage;
-            ASSERT_EQ(stopped.nodes.size(), straight.nodes.size());
-            const std::vector<Rgb> x = radiances(stopped), y = radiances(straight);
-            EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(Rgb)), 0);
-        }
-        EXPECT_GT(amid_splitting, 10u);
-        EXPECT_GT(with_growing, 10u);
-        EXPECT_EQ(stopped.rays.total(), straight.rays.total());
     }
 }
 
@@ -214,7 +163,7 @@ TEST_F(CheckpointFile, OtherVersionsAreRefused) {
     std::string other = bytes;
     other[17] = 77;
     write_bytes(file, other);
-    EXPECT_NE(refusal(session.scene()).find("is a checkpoint of version 77, this program reads version 1"), std::string::npos) << refusal(session.scene());
+    EXPECT_NE(refusal(session.scene()).find("is a checkpoint of version 77, this program reads version " + std::to_string(checkpoint_version)), std::string::npos) << refusal(session.scene());
     other = bytes;
     other[37 + 8] = '9';  // the program's version, after its length
     write_bytes(file, resealed(other));
