@@ -78,18 +78,6 @@ struct SectionHead {
 };
 constexpr std::uint64_t head_section = 0, first_tile_section = 1;
 
-// Empty tiles, each at its place.
-std::vector<Tile> blank_tiles(const scene::Settings& s) {
-    std::vector<Tile> tiles;
-    for (int y = 0; y < s.height; y += s.tile) {
-        for (int x = 0; x < s.width; x += s.tile) {
-            Tile& tile = tiles.emplace_back();
-            tile.x0 = x, tile.y0 = y, tile.width = std::min(s.tile, s.width - x), tile.height = std::min(s.tile, s.height - y);
-        }
-    }
-    return tiles;
-}
-
 // Reads a file section by section.
 class SectionReader {
 public:
@@ -191,7 +179,7 @@ Expected<Checkpoint> read_all(const fs::path& file, const World& world) {
     if (picture_text(head->settings) != picture_text(now)) return reader->wrong("", "is of a picture of " + picture_text(head->settings) + ", not of " + picture_text(now));
 
     const std::vector<Stage> stages = stages_of(head->settings);
-    Checkpoint checkpoint{std::move(*head), blank_tiles(now)};
+    Checkpoint checkpoint{std::move(*head), cut_tiles(now)};
     for (std::size_t i = 0; i < checkpoint.tiles.size(); ++i) {
         Tile& tile = checkpoint.tiles[i];
         const std::string place = "tile " + std::to_string(i + 1) + " of " + std::to_string(checkpoint.tiles.size());

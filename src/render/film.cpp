@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
+
+#include "render/level_visible.h"
 
 namespace crescente::render {
 namespace {
@@ -41,7 +44,7 @@ std::uint32_t samples_in(const Tile& tile, const Quad& quad) {
 // The step of the finest grid that is whole: every corner of it has a root. 0: none.
 int whole_grid(const Tile& tile) {
     if (tile.corners.empty()) return 0;
-    for (int step = 1; step <= 8; step *= 2) {
+    for (int step = 1; step <= coarsest_grid; step *= 2) {
         bool whole = true;
         for (int y = 0; whole && y <= tile.height; ++y) {
             if (y % step && y != tile.height) continue;
@@ -73,10 +76,13 @@ std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance,
 
 // Whether a pixel is shown as it was made up after an edit, until its trees are further.
 bool is_previewed(const Tile& tile, const std::array<std::uint32_t, 4>& corners) {
-    return tile.stage < tile.previewed_until && !tile.pixels.empty() && std::any_of(corners.begin(), corners.end(), [&](std::uint32_t root) { return root < tile.kept || root == no_node; });
+    const auto is_old = [&](std::uint32_t root) { return root < tile.kept || root == no_node; };
+    return tile.stage < tile.previewed_until && !tile.pixels.empty() && std::any_of(corners.begin(), corners.end(), is_old);
 }
 
-std::array<std::uint32_t, 4> corners_of(const Tile& tile, int x, int y) { return {tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)}; }
+std::array<std::uint32_t, 4> corners_of(const Tile& tile, int x, int y) {
+    return {tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)};
+}
 
 }  // namespace
 
@@ -119,9 +125,11 @@ std::uint32_t root_near(const Tile& tile, int x, int y) {
     return nearest;
 }
 
-Tile without_trees(const Tile& tile) {
+Tile without_trees(const Tile& tile) { return without_trees(tile, develop(tile)); }
+
+Tile without_trees(const Tile& tile, std::vector<Rgb> pixels) {
     Tile rest = blank_tile(tile);
-    rest.pixels = develop(tile);
+    rest.pixels = std::move(pixels);
     rest.rays = tile.rays;
     rest.tests = tile.tests;
     return rest;

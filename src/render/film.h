@@ -17,8 +17,9 @@ std::vector<Rgb> develop(const Tile& tile);
 // no_node: nothing is known yet.
 std::uint32_t root_near(const Tile& tile, int x, int y);
 
-// The tile with its picture and counts alone.
+// The tile with its picture and counts alone, or with another picture.
 Tile without_trees(const Tile& tile);
+Tile without_trees(const Tile& tile, std::vector<Rgb> pixels);
 
 // Names, channels and room for the layers of a picture; see scene/image.h.
 scene::Image blank_image(int width, int height, bool all_layers);

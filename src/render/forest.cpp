@@ -1,5 +1,7 @@
 #include "render/forest.h"
 
+#include <algorithm>
+
 namespace crescente::render {
 
 namespace {
@@ -34,6 +36,18 @@ void Tile::trim() {
     shrink(nodes), shrink(shares), shrink(pending), shrink(quads), shrink(todo);
 }
 
+std::vector<Tile> cut_tiles(const scene::Settings& settings) {
+    std::vector<Tile> tiles;
+    for (int y = 0; y < settings.height; y += settings.tile) {
+        for (int x = 0; x < settings.width; x += settings.tile) {
+            Tile& tile = tiles.emplace_back();
+            tile.x0 = x, tile.y0 = y;
+            tile.width = std::min(settings.tile, settings.width - x), tile.height = std::min(settings.tile, settings.height - y);
+        }
+    }
+    return tiles;
+}
+
 Tile blank_tile(const Tile& place) {
     Tile tile;
     tile.x0 = place.x0, tile.y0 = place.y0, tile.width = place.width, tile.height = place.height;
@@ -54,10 +68,7 @@ Rgb influence(const Tile& tile, std::uint32_t node) {
 std::vector<Rgb> radiances(const Tile& tile) {
     std::vector<Rgb> result(tile.nodes.size());
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
-        const Node& node = tile.nodes[i];
-        Rgb sum = node.local;
-        for_each_child(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child, Way) { sum += tile.nodes[child].weight * result[child]; });
-        result[i] = node.parent == no_node ? sum * node.weight : sum;  // the camera may be in a medium
+        result[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return result[child]; });
     }
     return result;
 }

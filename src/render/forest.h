@@ -13,6 +13,7 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "render/counts.h"
+#include "scene/settings.h"
 
 namespace crescente::render {
 
@@ -138,6 +139,17 @@ void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
     const auto child = tile.straight.find(node);
     if (child != tile.straight.end() && !tile.nodes[child->second].hidden) visit(child->second, Way::straight);
 }
+
+// Radiance of a node with its children, whose own radiance_of_child(child) gives; of a root as it arrives at the camera, which may be in a medium.
+template <class RadianceOfChild>
+Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radiance_of_child) {
+    Rgb sum = tile.nodes[node].local;
+    for_each_child(tile, node, [&](std::uint32_t child, Way) { sum += tile.nodes[child].weight * radiance_of_child(child); });
+    return tile.nodes[node].parent == no_node ? sum * tile.nodes[node].weight : sum;
+}
+
+// The tiles of a picture, row by row, for which nothing was done yet.
+std::vector<Tile> cut_tiles(const scene::Settings& settings);
 
 // A tile of the same pixels that nothing was done for yet; it knows the same edits.
 Tile blank_tile(const Tile& place);

@@ -1,5 +1,7 @@
 #include "render/level.h"
 
+#include <algorithm>
+
 #include "render/level_edges.h"
 #include "render/level_reflections.h"
 #include "render/level_shadows.h"
@@ -15,6 +17,10 @@ std::span<const LevelKind> levels() {
         {scene::Level::edges, "edges", edges_stages, advance_edges},
     };
     return table;
+}
+
+int first_stage(std::span<const scene::Level> level_of_stage, scene::Level level) {
+    return static_cast<int>(std::find(level_of_stage.begin(), level_of_stage.end(), level) - level_of_stage.begin());
 }
 
 std::vector<Stage> stages_of(const scene::Settings& settings) {

@@ -15,6 +15,9 @@ struct Stage {
     double cost;       // rough share of a picture's time, for the progress bar
 };
 
+// The first stage of a level; if it has none, their number.
+int first_stage(std::span<const scene::Level> level_of_stage, scene::Level level);
+
 struct LevelKind {
     scene::Level level;
     const char* name;

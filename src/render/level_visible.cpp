@@ -5,8 +5,6 @@
 namespace crescente::render {
 namespace {
 
-constexpr int coarsest = 8;
-
 // Whether corner coordinate c of a tile with `extent` pixels is on the grid of this step. The last one always is, so that every
 // grid covers the whole tile.
 bool on_grid(int c, int extent, int step) { return c % step == 0 || c == extent; }
@@ -30,8 +28,10 @@ void for_each_corner(const Tile& tile, int step, Visit&& visit) {
 }  // namespace
 
 std::vector<Stage> visible_stages(const scene::Settings&) {
-    return {{scene::Level::visible, coarsest, 0.01}, {scene::Level::visible, 4, 0.03}, {scene::Level::visible, 2, 0.1}, {scene::Level::visible, 1, 0.4}};
+    return {{scene::Level::visible, coarsest_grid, 0.01}, {scene::Level::visible, 4, 0.03}, {scene::Level::visible, 2, 0.1}, {scene::Level::visible, 1, 0.4}};
 }
+
+int stages_to_all_roots(const scene::Settings& settings) { return static_cast<int>(visible_stages(settings).size()); }
 
 bool advance_visible(Growth& growth, const Stage& stage, const Deadline& deadline) {
     Tile& tile = growth.tile();

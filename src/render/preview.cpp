@@ -9,7 +9,7 @@
 namespace crescente::render {
 namespace {
 
-constexpr int step = 8;  // of the grid, in pixels
+constexpr int step = coarsest_grid;
 
 // Nodes that are not lit, or that one below is not, by node.
 std::vector<std::uint8_t> unlit(const Tile& tile) {
@@ -28,13 +28,10 @@ void collect_unlit(const Tile& tile, std::uint32_t root, std::vector<std::uint32
 }
 
 Rgb radiance_of(const Tile& tile, std::uint32_t root) {
-    Rgb sum = tile.nodes[root].local;
-    for_each_child(tile, root, [&](std::uint32_t child, Way) { sum += tile.nodes[child].weight * radiance_of(tile, child); });
-    return tile.nodes[root].parent == no_node ? sum * tile.nodes[root].weight : sum;
+    return radiance_above(tile, root, [&](std::uint32_t child) { return radiance_of(tile, child); });
 }
 
 struct Corner {
-    std::uint32_t root;
     bool lit_anew;
     Rgb before, now;
 };
@@ -92,7 +89,7 @@ private:
         }
         std::vector<LatticePoint> points;
         std::vector<std::uint32_t*> targets;
-        corners_.assign(wanted.size(), {no_node, false, {}, {}});
+        corners_.assign(wanted.size(), {false, {}, {}});
         std::vector<std::uint32_t> nodes;
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             if (!wanted[i]) continue;
@@ -102,7 +99,7 @@ private:
                 points.push_back(corner_point(tile_.x0 + x, tile_.y0 + y));
                 targets.push_back(&root);
             } else {
-                corners_[i] = {root, unlit_[root] != 0, radiance_of(tile_, root), {}};
+                corners_[i] = {unlit_[root] != 0, radiance_of(tile_, root), {}};
                 if (corners_[i].lit_anew) collect_unlit(tile_, root, nodes);
             }
         }
@@ -114,8 +111,7 @@ private:
         growth_.light(nodes, true, accel::Coherence::coherent);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             if (!wanted[i]) continue;
-            corners_[i].root = tile_.corner(columns_[i % columns_.size()], rows_[i / columns_.size()]);
-            corners_[i].now = radiance_of(tile_, corners_[i].root);
+            corners_[i].now = radiance_of(tile_, tile_.corner(columns_[i % columns_.size()], rows_[i / columns_.size()]));
         }
     }
 

@@ -7,6 +7,7 @@
 #include "render/film.h"
 #include "render/growth.h"
 #include "render/kept_rays.h"
+#include "render/level.h"
 #include "render/level_edges.h"
 #include "render/level_visible.h"
 
@@ -14,7 +15,7 @@ namespace crescente::render {
 namespace {
 
 // The stage that sends a camera ray through every corner that has none.
-int all_roots(const scene::Settings& settings) { return static_cast<int>(visible_stages(settings).size()) - 1; }
+int all_roots(const scene::Settings& settings) { return stages_to_all_roots(settings) - 1; }
 
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
@@ -361,9 +362,7 @@ void revise(Tile& tile, const World& before, const World& now, const Change& cha
 void settle(Tile& tile, const World& world, std::span<const scene::Level> level_of_stage) {
     if (!std::exchange(tile.unsettled, false)) return;
     const scene::Settings& settings = world.scene.settings;
-    const auto first_of = [&](scene::Level level) {
-        return static_cast<int>(std::find(level_of_stage.begin(), level_of_stage.end(), level) - level_of_stage.begin());
-    };
+    const auto first_of = [&](scene::Level level) { return first_stage(level_of_stage, level); };
     const int shadows = first_of(scene::Level::shadows), reflections = first_of(scene::Level::reflections), edges = first_of(scene::Level::edges);
     const bool untried = std::exchange(tile.untried, false);
     const auto is_missing = [](std::uint32_t root) { return root == no_node; };

@@ -92,7 +92,7 @@ Progress Session::advance(const Deadline& deadline) {
         }
         if (deadline.passed()) break;
     }
-    const int corners = static_cast<int>(visible_stages(s.world->scene.settings).size());
+    const int corners = stages_to_all_roots(s.world->scene.settings);
     if (std::all_of(states.begin(), states.end(), [&](const TileState& state) { return state.shown_stage >= corners; })) release(s.seen);
     s.render_seconds += std::chrono::duration<double>(Clock::now() - start).count();
     return s.progress(states);

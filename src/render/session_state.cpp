@@ -74,18 +74,10 @@ bool Session::State::catch_up(const Deadline& deadline) {
 
 void Session::State::cut_tiles() {
     for (const Tile& tile : tiles) past_rays += tile.rays, past_tests += tile.tests;
-    tiles.clear();
+    tiles = render::cut_tiles(world->scene.settings);
     release(seen);
     ++clock;
-    for (int y = 0; y < height(); y += tile_size()) {
-        for (int x = 0; x < width(); x += tile_size()) {
-            Tile& tile = tiles.emplace_back();
-            tile.x0 = x, tile.y0 = y;
-            tile.width = std::min(tile_size(), width() - x), tile.height = std::min(tile_size(), height() - y);
-            tile.revision = edits;
-            tile.changed = clock;
-        }
-    }
+    for (Tile& tile : tiles) tile.revision = edits, tile.changed = clock;
 }
 
 std::optional<Reprojected> Session::State::seen_anew(const World& before) try {
@@ -93,8 +85,7 @@ std::optional<Reprojected> Session::State::seen_anew(const World& before) try {
     const auto ceiling = static_cast<std::uint64_t>(world->scene.settings.memory);
     constexpr std::uint64_t bytes = 64, share = 4;  // a pixel, in all that is needed here; of what may be kept
     if (ceiling > 0 && pixels * bytes > ceiling / share) return {};
-    const int complete = static_cast<int>(visible_stages(world->scene.settings).size());
-    const auto has_corners = [&](const Tile& tile) { return tile.stage >= complete; };
+    const auto has_corners = [&](const Tile& tile) { return tile.stage >= stages_to_all_roots(world->scene.settings); };
     if (seen.empty() || std::all_of(tiles.begin(), tiles.end(), has_corners)) {
         seen.assign(pixels, {});
         pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], before.environment.backdrop, width(), seen); });
@@ -106,23 +97,23 @@ std::optional<Reprojected> Session::State::seen_anew(const World& before) try {
 }
 
 void Session::State::begin_anew(const Reprojected& picture) {
-    const auto shadows = std::find(level_of_stage.begin(), level_of_stage.end(), scene::Level::shadows) - level_of_stage.begin();
+    const int shadows = first_stage(level_of_stage, scene::Level::shadows);
     const bool reuse = world->scene.settings.memory == 0;
     ++clock;
     pool.for_each(tiles.size(), [&](std::size_t i) {
         Tile& tile = tiles[i];
-        Tile fresh = blank_tile(tile);
-        fresh.rays = tile.rays, fresh.tests = tile.tests;
-        fresh.revision = edits, fresh.changed = clock;
+        std::vector<Rgb> pixels;
         std::size_t holes = 0;
         for (int y = tile.y0; y < tile.y0 + tile.height; ++y) {
             const auto first = static_cast<std::ptrdiff_t>(y) * width() + tile.x0;
-            fresh.pixels.insert(fresh.pixels.end(), picture.pixels.begin() + first, picture.pixels.begin() + first + tile.width);
+            pixels.insert(pixels.end(), picture.pixels.begin() + first, picture.pixels.begin() + first + tile.width);
             holes += static_cast<std::size_t>(std::count(picture.seen.begin() + first, picture.seen.begin() + first + tile.width, 0));
         }
+        Tile fresh = without_trees(tile, std::move(pixels));
+        fresh.revision = edits, fresh.changed = clock;
         constexpr std::size_t few = 4;  // with more of it guessed the coarse picture is the better one
         if (holes * few < fresh.pixels.size()) {
-            fresh.previewed_until = std::min(static_cast<int>(shadows) + 1, static_cast<int>(level_of_stage.size()));
+            fresh.previewed_until = std::min(shadows + 1, static_cast<int>(level_of_stage.size()));
             fresh.kept = no_node;
         }
         if (reuse) {  // the memory

@@ -73,8 +73,10 @@ Expected<void> Checkpoints::refuse(Error error) {
     return {};
 }
 
+bool Checkpoints::goes_on() const { return request_.resume && !(request_.fresh && !is_there(request_.file)); }
+
 Expected<std::optional<render::CheckpointHead>> Checkpoints::head() {
-    if (!request_.resume || (request_.fresh && !is_there(request_.file))) return std::nullopt;
+    if (!goes_on()) return std::nullopt;
     auto head = render::read_checkpoint_head(request_.file);
     if (head) return std::move(*head);
     return refuse(std::move(head.error())).map([] { return std::optional<render::CheckpointHead>(); });
@@ -82,7 +84,7 @@ Expected<std::optional<render::CheckpointHead>> Checkpoints::head() {
 
 Expected<void> Checkpoints::begin(render::Session& session) {
     const auto start = last_ = Clock::now();
-    if (!request_.resume || (request_.fresh && !is_there(request_.file))) return {};
+    if (!goes_on()) return {};
     if (auto restored = session.restore(request_.file); !restored) return refuse(std::move(restored.error()));
     resumed_ = true;
     rays_before_ = session.stats().rays;

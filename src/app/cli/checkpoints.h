@@ -67,6 +67,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    bool goes_on() const;  // from a file
     Expected<void> save(render::Session& session, const std::string& note);
 
     CheckpointRequest request_;
