@@ -1,0 +1,272 @@
+#include "render/bsdf.h"
+
+#include "render/microfacets.h"
+#include "render/physical_view.h"
+
+namespace crescente::render {
+namespace {
+
+constexpr float smoothest = 0.002f;  // alpha that compile() gives to whatever is smoother: such lobes are mirrors
+constexpr double bends = 1e-3;       // of the index: below, light goes straight through even a rough surface
+
+double mean(Rgb c) { return (double(c.r) + c.g + c.b) / 3; }
+
+bool transmits(const Lobes& lobes) { return lobes.layered() && lobes.fresnel == Fresnel::dielectric; }
+
+double power(double base, double exponent) { return exponent == 0 ? 1 : std::pow(std::max(0.0, base), exponent); }
+
+// The lobes that a direction is drawn from, in the order in which the first number chooses.
+enum Lobe : std::uint8_t { diffuse, rough, highlight, mirror, refraction, straight, lobe_count };
+
+class Scattering {
+public:
+    Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, bool with_smooth);
+
+    bool seen() const { return v_.z > 0 && dot(facing_.geometric, viewer_) > 0; }
+    Scattered toward(Vec3 to_light) const;
+    std::optional<ScatterSample> sample(std::array<double, 3> u) const;
+
+private:
+    struct FacetColors {  // what a facet reflects and transmits, cosine: between its normal and the viewer
+        Rgb reflected, transmitted;
+        double chance_reflected;
+    };
+    FacetColors facet(double cosine) const;
+    Vec3 local(Vec3 w) const { return {dot(t_, w), dot(b_, w), dot(facing_.shading, w)}; }
+    Vec3 world(Vec3 w) const { return t_ * w.x + b_ * w.y + facing_.shading * w.z; }
+    bool allows(Vec3 to_light, bool crosses) const { return (dot(facing_.shading, to_light) < 0) == crosses && (dot(facing_.geometric, to_light) < 0) == crosses; }
+    double layer_over_diffuse(double cosine) const;
+    std::optional<Vec3> draw(Lobe lobe, std::array<double, 3> u) const;
+    std::optional<ScatterSample> ray(Lobe lobe) const;
+    void add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const;
+    void add_facets(Vec3 l, Scattered& sum) const;
+    void add_highlight(Vec3 l, Scattered& sum) const;
+    double highlight_scale() const;
+
+    const Lobes& lobes_;
+    const Facing& facing_;
+    Vec3 viewer_, t_, b_, v_;
+    double eta_;  // index behind over index in front
+    Smooth smooth_;
+    ChildWeights rays_;
+    Microfacets facets_;
+    double chances_[lobe_count] = {};
+};
+
+Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, bool with_smooth)
+    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), smooth_(smooth_lobes(lobes)), facets_{lobes.alpha, lobes.alpha} {
+    const Vec3 along = facing.tangent - facing.shading * dot(facing.tangent, facing.shading);
+    const double size = length(along);
+    t_ = size > 1e-9 ? along / size : perpendicular(facing.shading);
+    b_ = cross(facing.shading, t_);
+    v_ = local(to_viewer);
+    if (!seen()) return;
+    v_.z = std::min(v_.z, 1.0);
+    rays_ = smooth_weights(lobes, v_.z, facing.inside);
+
+    double weights[lobe_count] = {};
+    weights[diffuse] = mean(lobes.ambient_diffuse) * (lobes.layered() ? 1 - layer_over_diffuse(v_.z) : 1);
+    if (lobes.layered() && !smooth_.reflects) {
+        if (transmits(lobes)) {
+            const FacetColors f = facet(v_.z);
+            weights[rough] = mean(f.reflected) + mean(f.transmitted);
+        } else {
+            const SplitSum sum = split_sum(lobes.sums, v_.z);
+            weights[rough] = mean(lobes.highlight) * sum.scale + double(lobes.coverage) * sum.bias;
+        }
+    }
+    if (!lobes.layered() && lobes.highlight_lobe != HighlightLobe::none) {
+        const double most = lobes.highlight_lobe == HighlightLobe::phong ? 2 : 8;
+        weights[highlight] = mean(lobes.highlight) * std::min(1.0, most / (lobes.exponent + 1));
+    }
+    if (with_smooth) weights[mirror] = mean(rays_.reflected), weights[refraction] = mean(rays_.refracted), weights[straight] = mean(lobes.straight);
+    double sum = 0;
+    for (const double w : weights) sum += w;
+    for (int i = 0; sum > 0 && i < lobe_count; ++i) chances_[i] = weights[i] / sum;
+}
+
+Scattering::FacetColors Scattering::facet(double cosine) const {
+    const auto grazing = static_cast<float>(fifth_power(1 - cosine));
+    FacetColors f;
+    if (transmits(lobes_)) {
+        const double fresnel = fresnel_dielectric(cosine, eta_);
+        f.reflected = lobes_.mirror * static_cast<float>(fresnel) + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing;
+        if (!smooth_.refracts) f.transmitted = lobes_.refraction * static_cast<float>(1 - fresnel);
+    } else {
+        f.reflected = lobes_.highlight + (gray(lobes_.coverage) - lobes_.highlight) * grazing;
+    }
+    const double r = mean(f.reflected), t = mean(f.transmitted);
+    f.chance_reflected = t == 0 ? 1 : r / (r + t);
+    return f;
+}
+
+// What of the light at this cosine does not reach the diffuse lobe, since it is reflected before.
+double Scattering::layer_over_diffuse(double cosine) const {
+    if (is_black(lobes_.diffuse)) return 0;
+    cosine = std::clamp(cosine, 1e-4, 1.0);
+    return facing_.inside && transmits(lobes_) ? fresnel_dielectric(cosine, eta_) : layer_reflectance(lobes_, cosine);
+}
+
+// Classic strengths are meant for sharp highlights: a broad one is kept from giving back more than its strength.
+double Scattering::highlight_scale() const {
+    const double most = lobes_.highlight_lobe == HighlightLobe::phong ? 2 : 8;
+    return std::min(1.0, (lobes_.exponent + 1) / most) / pi;
+}
+
+Scattered Scattering::toward(Vec3 to_light) const {
+    Scattered sum;
+    if (!seen()) return sum;
+    const bool crosses = dot(facing_.shading, to_light) < 0;
+    if (!allows(to_light, crosses)) return sum;
+    const Vec3 l = local(to_light);
+    if (!crosses) add_diffuse(l, to_light, sum), add_highlight(l, sum);
+    add_facets(l, sum);
+    return sum;
+}
+
+void Scattering::add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const {
+    if (chances_[diffuse] == 0 || l.z <= 0) return;
+    sum.pdf += chances_[diffuse] * l.z / pi;
+    if (!lobes_.layered()) {
+        sum.diffuse = lobes_.ambient_diffuse * static_cast<float>(l.z / pi);
+        return;
+    }
+    double radiance[3];
+    PhysicalView<double> view = physical_view(lobes_, v_.z);
+    view.layer_kept = layer_over_diffuse(v_.z);
+    reflect_physical(view, l.z, dot(viewer_, to_light), layer_over_diffuse(l.z), false, radiance);
+    sum.diffuse = {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
+}
+
+void Scattering::add_facets(Vec3 l, Scattered& sum) const {
+    if (chances_[rough] == 0 || l.z == 0) return;
+    if (l.z > 0) {
+        const Vec3 h = normalize(v_ + l);
+        const double v_h = std::clamp(dot(v_, h), 0.0, 1.0);
+        if (v_h == 0) return;
+        const FacetColors f = facet(v_h);
+        sum.glossy += f.reflected * static_cast<float>(facets_.density(h) * facets_.seen_by_both(v_, l) / (4 * v_.z));
+        sum.pdf += chances_[rough] * f.chance_reflected * facets_.density_seen(v_, h) / (4 * v_h);
+    } else if (transmits(lobes_) && !smooth_.refracts && lobes_.refracts()) {
+        // Walter et al. 2007, section 5.3; the factor of the square of the index is left out.
+        Vec3 h = normalize(v_ + l * eta_);
+        if (h.z < 0) h = -h;
+        const double v_h = std::min(dot(v_, h), 1.0), l_h = dot(l, h);
+        if (v_h <= 0 || l_h >= 0) return;
+        const FacetColors f = facet(v_h);
+        const double root = v_h + eta_ * l_h, widening = eta_ * eta_ * -l_h / (root * root);
+        sum.glossy += f.transmitted * static_cast<float>(facets_.density(h) * facets_.seen_by_both(v_, l) * v_h * widening / v_.z);
+        sum.pdf += chances_[rough] * (1 - f.chance_reflected) * facets_.density_seen(v_, h) * widening;
+    }
+}
+
+void Scattering::add_highlight(Vec3 l, Scattered& sum) const {
+    if (chances_[highlight] == 0 || l.z <= 0) return;
+    const double n = lobes_.exponent;
+    if (lobes_.highlight_lobe == HighlightLobe::phong) {
+        const double cosine = -v_.x * l.x - v_.y * l.y + v_.z * l.z;
+        if (cosine <= 0) return;
+        const double lobe = power(cosine, n);
+        sum.glossy += lobes_.highlight * static_cast<float>(lobe * highlight_scale());
+        sum.pdf += chances_[highlight] * (n + 1) / (2 * pi) * lobe;
+    } else {
+        const Vec3 h = normalize(v_ + l);
+        const double lobe = power(h.z, n);
+        sum.glossy += lobes_.highlight * static_cast<float>(lobe * highlight_scale());
+        sum.pdf += chances_[highlight] * (n + 1) / (2 * pi) * lobe / (4 * std::max(1e-12, dot(v_, h)));
+    }
+}
+
+// A direction drawn from a lobe that is not smooth, in the surface's frame; u[0] is what the choice of the lobe left of it.
+std::optional<Vec3> Scattering::draw(Lobe lobe, std::array<double, 3> u) const {
+    const double phi = 2 * pi * u[1];
+    const auto about_z = [phi](double z) {
+        const double r = std::sqrt(std::max(0.0, 1 - z * z));
+        return Vec3{r * std::cos(phi), r * std::sin(phi), z};
+    };
+    const auto mirrored_in = [this](Vec3 h) { return h * (2 * dot(v_, h)) - v_; };
+    if (lobe == diffuse) return about_z(std::sqrt(1 - u[2]));
+    if (lobe == highlight) {
+        const Vec3 drawn = about_z(std::pow(1 - u[2], 1.0 / (lobes_.exponent + 1)));
+        if (lobes_.highlight_lobe == HighlightLobe::blinn) return dot(v_, drawn) > 0 ? std::optional(mirrored_in(drawn)) : std::nullopt;
+        const Vec3 axis{-v_.x, -v_.y, v_.z}, across = perpendicular(axis);
+        return across * drawn.x + cross(axis, across) * drawn.y + axis * drawn.z;
+    }
+    const Vec3 h = facets_.sample_seen(v_, u[1], u[2]);
+    const double v_h = std::clamp(dot(v_, h), 0.0, 1.0);
+    if (v_h == 0) return std::nullopt;
+    if (u[0] < facet(v_h).chance_reflected) return mirrored_in(h);
+    const double sin2 = (1 - v_h * v_h) / (eta_ * eta_);
+    if (sin2 >= 1) return std::nullopt;
+    return h * (v_h / eta_ - std::sqrt(1 - sin2)) - v_ / eta_;
+}
+
+std::optional<ScatterSample> Scattering::ray(Lobe lobe) const {
+    ScatterSample s{{}, {}, Part::glossy, true, lobe != mirror};
+    s.value.pdf = chances_[lobe];
+    if (lobe == mirror) s.direction = mirrored_direction(facing_, viewer_), s.value.glossy = rays_.reflected;
+    if (lobe == refraction) s.direction = refracted_direction(facing_, viewer_, 1 / eta_), s.value.glossy = rays_.refracted;
+    if (lobe == straight) s.direction = -viewer_, s.value.glossy = lobes_.straight;
+    return s;
+}
+
+std::optional<ScatterSample> Scattering::sample(std::array<double, 3> u) const {
+    if (!seen()) return std::nullopt;
+    int chosen = 0, last = -1;
+    for (int i = 0; i < lobe_count; ++i) {
+        if (chances_[i] > 0) last = i;
+    }
+    if (last < 0) return std::nullopt;
+    for (; chosen < last && u[0] >= chances_[chosen]; ++chosen) u[0] -= chances_[chosen];
+    u[0] = std::min(u[0] / chances_[chosen], 1 - 0x1p-53);
+    const Lobe lobe{static_cast<std::uint8_t>(chosen)};
+    if (lobe >= mirror) return ray(lobe);
+
+    const auto l = draw(lobe, u);
+    if (!l) return std::nullopt;
+    ScatterSample s{normalize(world(*l)), {}, lobe == diffuse ? Part::diffuse : Part::glossy, false, l->z < 0};
+    if (!allows(s.direction, s.crosses)) return std::nullopt;
+    s.value = toward(s.direction);
+    if (s.value.pdf <= 0 || (is_black(s.value.diffuse) && is_black(s.value.glossy))) return std::nullopt;
+    return s;
+}
+
+}  // namespace
+
+Smooth smooth_lobes(const Lobes& lobes) {
+    if (!lobes.layered()) return {true, true};
+    const bool smooth = lobes.alpha <= smoothest;
+    return {smooth, smooth || !transmits(lobes) || std::abs(lobes.ior - 1) < bends};
+}
+
+ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside) {
+    if (!lobes.layered()) return child_weights(lobes, cosine, inside);
+    const Smooth smooth = smooth_lobes(lobes);
+    if (transmits(lobes)) {
+        const ChildWeights all = child_weights(lobes, cosine, inside);
+        return {smooth.reflects ? all.reflected : Rgb{}, smooth.refracts ? all.refracted : Rgb{}};
+    }
+    const auto grazing = static_cast<float>(fifth_power(1 - cosine));
+    return {smooth.reflects ? lobes.highlight + (gray(lobes.coverage) - lobes.highlight) * grazing : Rgb{}, lobes.refraction};
+}
+
+Vec3 mirrored_direction(const Facing& facing, Vec3 to_viewer) {
+    const Vec3 direction = normalize(facing.shading * (2 * dot(facing.shading, to_viewer)) - to_viewer);
+    const double above = dot(direction, facing.geometric);
+    return above < 1e-4 ? normalize(direction + facing.geometric * (1e-4 - above)) : direction;
+}
+
+Vec3 refracted_direction(const Facing& facing, Vec3 to_viewer, double eta) {
+    const double cosine = dot(facing.shading, to_viewer), sin2 = eta * eta * std::max(0.0, 1 - cosine * cosine);
+    return normalize(facing.shading * (eta * cosine - std::sqrt(std::max(0.0, 1 - sin2))) - to_viewer * eta);
+}
+
+Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3 to_light, bool with_delta) {
+    return Scattering(lobes, facing, to_viewer, with_delta).toward(to_light);
+}
+
+std::optional<ScatterSample> sample_scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, std::array<double, 3> u, bool with_delta) {
+    return Scattering(lobes, facing, to_viewer, with_delta).sample(u);
+}
+
+}  // namespace crescente::render

@@ -1,0 +1,62 @@
+// How a surface scatters light between any two directions, and directions drawn by it: what levels that sample ask of a material. The levels before them
+// use the same lobes for lights without extent (reflect_light) and perfectly smooth rays (child_weights).
+//
+// All values are of radiance over the square of the index of refraction, as the weights of refracted rays are: light that crosses a surface twice needs no
+// factor, and a material that absorbs nothing gives back exactly what it gets from everywhere.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "render/lobes.h"
+
+namespace crescente::render {
+
+// Which accumulator a direction was drawn for.
+enum class Part : std::uint8_t { diffuse, glossy };
+
+// The surface as it is met. Normals are unit vectors on the viewer's side.
+struct Facing {
+    Vec3 shading, geometric;
+    Vec3 tangent;         // along the grain of brushed materials; any length; zero: some direction of the surface
+    bool inside = false;  // met from the inner side of its body
+};
+
+struct Scattered {
+    Rgb diffuse, glossy;  // radiance to the viewer per unit of radiance and solid angle: f times |cosine|, of each part, coloured
+    double pdf = 0;       // density (1/sr) of sample_scatter for the direction
+};
+
+struct ScatterSample {
+    Vec3 direction;   // unit, away from the surface
+    Scattered value;  // not delta: as scatter() says. Delta: the weight of the ray itself, and the chance of being drawn
+    Part part;        // of the lobe that drew it
+    bool delta;       // of a perfectly smooth lobe: one direction, no density
+    bool crosses;     // it goes on behind the surface
+};
+
+// What of a material is perfectly smooth: goes one way only, that of the node's reflected, refracted and straight ray.
+struct Smooth {
+    bool reflects = false, refracts = false;
+};
+Smooth smooth_lobes(const Lobes& lobes);
+
+// Weights of the rays of perfectly smooth lobes alone, for a ray that meets the surface at `cosine` (0 to 1): what is a node's child where rough lobes are sampled.
+// The straight ray beside them weighs lobes.straight.
+ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside);
+
+// Directions of the rays that smooth lobes send (unit); cosine: dot(shading, to_viewer), >= 0.
+Vec3 mirrored_direction(const Facing& facing, Vec3 to_viewer);             // lifted to just above the surface
+Vec3 refracted_direction(const Facing& facing, Vec3 to_viewer, double eta);  // eta: index in front over index behind; no total reflection
+
+// What the lobes that are not perfectly smooth send to the viewer of light from `to_light` (both unit, away from the surface; the light may be behind it).
+// Zero where the viewer does not see the front of both normals, or the normals disagree about the light's side. Classic materials: as reflect_light, over pi
+// (classic lights without extent are given in units of which pi make a lux). with_delta: the density is that of drawing with smooth lobes as well.
+Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3 to_light, bool with_delta = false);
+
+// A direction drawn about as the material reflects and transmits, from three numbers in [0, 1): the first chooses the lobe, the others the direction. Nothing
+// if there is nothing to draw, or the drawn direction gives nothing.
+std::optional<ScatterSample> sample_scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, std::array<double, 3> u, bool with_delta);
+
+}  // namespace crescente::render
