@@ -27,8 +27,7 @@ constexpr auto first_quantum = std::chrono::milliseconds(10);
 double milliseconds_since(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 double processor_milliseconds() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 double rays_of(const render::Session& session) {
-    const render::RayCounts rays = session.stats().rays;
-    return static_cast<double>(rays.camera + rays.reflected + rays.refracted + rays.shadow);
+    return static_cast<double>(session.stats().rays.total());
 }
 
 double tile_count(const scene::Settings& s) { return double((s.width + s.tile - 1) / s.tile) * double((s.height + s.tile - 1) / s.tile); }

@@ -2,6 +2,7 @@
 // narrow_phase.h and its order of hits; they differ in what they need not try.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -25,6 +26,11 @@ struct TestCounts {
 
 // Whether neighbouring rays of a batch run alike (camera rays, shadow rays to one light), so that packets pay.
 enum class Coherence { coherent, incoherent };
+
+// Crossings ray after ray, those of each in the order of `before`.
+inline void sort_by_ray(std::vector<Crossing>& crossings) {
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) { return a.ray != b.ray ? a.ray < b.ray : before(a.hit, b.hit); });
+}
 
 class Accelerator {
 public:

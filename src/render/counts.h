@@ -6,14 +6,18 @@
 namespace crescente::render {
 
 struct RayCounts {
-    std::uint64_t camera = 0, reflected = 0, refracted = 0, shadow = 0;
+    std::uint64_t camera = 0, reflected = 0, refracted = 0, shadow = 0, path = 0;  // path: drawn by sampling
 
-    std::uint64_t total() const { return camera + reflected + refracted + shadow; }
+    std::uint64_t total() const { return camera + reflected + refracted + shadow + path; }
     RayCounts& operator+=(const RayCounts& other) {
-        camera += other.camera, reflected += other.reflected, refracted += other.refracted, shadow += other.shadow;
+        camera += other.camera, reflected += other.reflected, refracted += other.refracted, shadow += other.shadow, path += other.path;
         return *this;
     }
 };
+
+inline RayCounts operator-(const RayCounts& a, const RayCounts& b) {
+    return {a.camera - b.camera, a.reflected - b.reflected, a.refracted - b.refracted, a.shadow - b.shadow, a.path - b.path};
+}
 
 struct TestCounts {
     std::uint64_t box_tests = 0, shape_tests = 0;         // box tests: kay-kajiya only

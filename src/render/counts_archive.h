@@ -8,8 +8,8 @@ namespace crescente::render {
 
 template <class Archive>
 void counts(Archive& a, RayCounts& c) {
-    auto& [camera, reflected, refracted, shadow] = c;
-    value(a, camera), value(a, reflected), value(a, refracted), value(a, shadow);
+    auto& [camera, reflected, refracted, shadow, path] = c;
+    value(a, camera), value(a, reflected), value(a, refracted), value(a, shadow), value(a, path);
 }
 template <class Archive>
 void counts(Archive& a, TestCounts& c) {

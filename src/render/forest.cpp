@@ -14,8 +14,8 @@ std::size_t sum_columns(const Tile& tile, Length length) {
         using Value = typename std::remove_cvref_t<decltype(map)>::value_type;
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
-    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.corners) + vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) +
-           vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
+    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.samples) + vector_bytes(tile.estimates) + vector_bytes(tile.corners) +
+           vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) + vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void Tile::trim() {
     const auto shrink = [](auto& column) {
         if (column.capacity() - column.size() > column.size() / 16) column.shrink_to_fit();
     };
-    shrink(nodes), shrink(shares), shrink(pending), shrink(quads), shrink(todo);
+    shrink(nodes), shrink(shares), shrink(samples), shrink(estimates), shrink(pending), shrink(quads), shrink(todo);
 }
 
 std::vector<Tile> cut_tiles(const scene::Settings& settings) {

@@ -13,6 +13,7 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "render/counts.h"
+#include "render/estimates.h"
 #include "scene/settings.h"
 
 namespace crescente::render {
@@ -39,6 +40,8 @@ struct Node {
     bool crossed : 1 = false;        // the ray came through the parent's surface, not back from it
     bool shadowed : 1 = false;       // lights have been tried, and local counts them
     bool spawned : 1 = false;        // its rays are children or in Tile::pending
+    bool sampled : 1 = false;        // `local` counts what the samples say, instead of what levels that do not sample make up
+    bool samples_reflection : 1 = false, samples_refraction : 1 = false;  // then these rays stand for rough lobes, and are no part of the picture
     bool hidden : 1 = false;         // kept, but below the threshold or the depth bound since an edit: no part of the picture
 
     bool left_scene() const { return instance == no_node; }
@@ -85,6 +88,8 @@ struct Tile {
     std::vector<Share> shares;                             // lights of node i from i * lights
     std::unordered_map<std::uint64_t, Rgb> filtered;       // by node * lights + light
     std::unordered_map<std::uint32_t, std::uint32_t> straight;  // children that rays past a node's coverage ended at, by node
+    std::vector<std::uint16_t> samples;                    // of each node; empty until a level samples
+    std::vector<Estimate> estimates;                       // what they say, groups of node i from i * estimate_groups()
     std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
     std::vector<Pending> pending;
     std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end
@@ -133,8 +138,8 @@ void release(Container& container) {
 template <class Visit>
 void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
     const Node& parent = tile.nodes[node];
-    if (parent.reflected != no_node && !tile.nodes[parent.reflected].hidden) visit(parent.reflected, Way::reflected);
-    if (parent.refracted != no_node && !tile.nodes[parent.refracted].hidden) visit(parent.refracted, Way::refracted);
+    if (parent.reflected != no_node && !parent.samples_reflection && !tile.nodes[parent.reflected].hidden) visit(parent.reflected, Way::reflected);
+    if (parent.refracted != no_node && !parent.samples_refraction && !tile.nodes[parent.refracted].hidden) visit(parent.refracted, Way::refracted);
     if (tile.straight.empty()) return;
     const auto child = tile.straight.find(node);
     if (child != tile.straight.end() && !tile.nodes[child->second].hidden) visit(child->second, Way::straight);

@@ -186,7 +186,7 @@ void Growth::light_points(bool shadows, Coherence coherence) {
 
 // Light without that of lamps.
 void Growth::begin_light(PointLanes& p, bool shadows) {
-    p.physical = p.layered = 0;
+    p.physical = p.layered = p.sampled = 0;
     for (int i = 0; i < p.count; ++i) {
         Node& node = tile_.nodes[p.node[i]];
         const Lobes& lobes = world_.lobes[node.material];
@@ -197,7 +197,9 @@ void Growth::begin_light(PointLanes& p, bool shadows) {
             set_lane(p.view, i, view);
             if (view.layer_kept > 0) p.layered |= 1u << i;
         }
-        const Rgb sum = lobes.emission + reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
+        if (node.sampled) p.sampled |= 1u << i;
+        const Rgb around = node.sampled ? sampled_radiance(world_, tile_, p.node[i]) : reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
+        const Rgb sum = lobes.emission + around;
         p.sum[0][i] = sum.r, p.sum[1][i] = sum.g, p.sum[2][i] = sum.b;
         node.shadowed = node.shadowed || shadows;
     }
@@ -215,7 +217,8 @@ bool Growth::any_untried(const PointLanes& p) const {
 void Growth::aim(PointLanes& p, std::size_t light) const {
     const std::size_t lights = world_.lights.size();
     p.lit = 0;
-    for (int i = 0; i < p.count; ++i) p.lit |= may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + light]) ? 1u << i : 0u;
+    const unsigned asked = world_.lights[light].has_extent() ? ~p.sampled : ~0u;
+    for (int i = 0; i < p.count; ++i) p.lit |= asked >> i & may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + light]) ? 1u << i : 0u;
     if (!p.lit) return;
     p.reach = world_.lights[light].reach(p.position);
     p.cosine = dot(p.normal, p.reach.to_light);
@@ -224,7 +227,9 @@ void Growth::aim(PointLanes& p, std::size_t light) const {
 
 void Growth::leave_out_of_reach(const PointLanes& p, std::size_t light) {
     const std::size_t lights = world_.lights.size();
+    const bool has_extent = world_.lights[light].has_extent();
     for (int i = 0; i < p.count; ++i) {
+        if (has_extent && p.sampled >> i & 1) continue;  // not asked
         Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
         if (!(p.lit >> i & 1) && may_arrive(share)) share = Share::behind;
     }
@@ -302,7 +307,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
         leave_out_of_reach(p, light);
         unsigned untried = 0;
         for (int i = 0; i < p.count; ++i) {
-            if (tile_.shares[std::size_t{p.node[i]} * lights + light] == Share::untried) untried |= 1u << i;
+            if (p.lit >> i & 1 && tile_.shares[std::size_t{p.node[i]} * lights + light] == Share::untried) untried |= 1u << i;
         }
         if (!untried) continue;
         alignas(64) Ray rays[lane_count];
@@ -324,8 +329,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
     tile_.tests.box_tests += counts.box_tests;
     tile_.tests.shape_tests += counts.shape_tests;
 
-    std::sort(crossings_.begin(), crossings_.end(),
-              [](const accel::Crossing& a, const accel::Crossing& b) { return a.ray != b.ray ? a.ray < b.ray : accel::before(a.hit, b.hit); });
+    accel::sort_by_ray(crossings_);
     auto crossing = crossings_.begin();
     for (std::uint32_t i = 0; i < rays_.size(); ++i) {
         const auto first = crossing;

@@ -84,6 +84,7 @@ private:
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
         unsigned layered;             // of those, lanes with light below their layer
+        unsigned sampled;             // lanes that take the light of lights with extent from their samples
         FloatLanes sum[3];            // radiance so far, by channel
         // Of the current light:
         Reach<Lanes> reach;

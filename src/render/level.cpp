@@ -4,6 +4,7 @@
 
 #include "render/level_edges.h"
 #include "render/level_reflections.h"
+#include "render/level_sampled.h"
 #include "render/level_shadows.h"
 #include "render/level_visible.h"
 
@@ -15,6 +16,8 @@ std::span<const LevelKind> levels() {
         {scene::Level::shadows, "shadows", shadows_stages, advance_shadows},
         {scene::Level::reflections, "reflections", reflections_stages, advance_reflections},
         {scene::Level::edges, "edges", edges_stages, advance_edges},
+        {scene::Level::soft, "soft", soft_stages, advance_sampled},
+        {scene::Level::indirect, "indirect", indirect_stages, advance_sampled},
     };
     return table;
 }

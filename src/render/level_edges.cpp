@@ -85,7 +85,7 @@ void keep_roots(const std::vector<Quad>& quads, Tile& tile) {
 }  // namespace
 
 void unsplit(Tile& tile, const scene::Settings& settings) {
-    const bool splits = settings.supersampling > 0 && settings.level == scene::Level::edges;
+    const bool splits = settings.supersampling > 0 && settings.level >= scene::Level::edges;
     if (splits) keep_roots(tile.quads, tile), keep_roots(tile.quads_before, tile);
     if (!tile.quads.empty()) tile.quads_before = std::move(tile.quads);
     tile.quads = {};

@@ -40,6 +40,36 @@ std::vector<Medium> media_of_ray(const World& world, const Tile& tile, std::uint
     return known;
 }
 
+// `media`: what the ray starts in.
+Rgb passage(const World& world, std::vector<Medium> media, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, bool straight_only) {
+    constexpr double same = 1e-12;
+    Rgb filter{1, 1, 1}, depth;
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        // Faces that a body has twice, or that overlap in it, are met at one distance, but crossed once: as by a seeing ray, which goes on
+        // clear of both. (At an edge that faces share a ray meets one of them anyway: geometry/ray_view.h.)
+        const accel::Hit& hit = crossings[i].hit;
+        if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
+        const accel::Instance& instance = world.instances[hit.instance];
+        const geometry::Ray local = accel::to_local(instance, ray);
+        const auto surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
+        const Lobes& lobes = world.lobes[world.material(hit.instance, surface.slot)];
+        filter *= straight_only && lobes.refracts() && lobes.ior != 1 ? lobes.straight : lobes.shadow_filter;
+        if (!world.absorbs) continue;
+        const bool leaves = dot(surface.normal, local.direction) > 0;
+        if (const auto medium = find(media, hit.instance); medium != media.end()) {
+            depth += medium->attenuation * static_cast<float>(hit.t - medium->since);
+            media.erase(medium);
+        } else if (leaves) {
+            depth += lobes.attenuation * static_cast<float>(hit.t);
+        }
+        if (!leaves && !is_black(lobes.attenuation)) media.push_back({hit.instance, lobes.attenuation, hit.t});
+    }
+    if (std::isfinite(ray.t_max)) {
+        for (const Medium& m : media) depth += m.attenuation * static_cast<float>(ray.t_max - m.since);
+    }
+    return filter * exp_of_minus(depth);
+}
+
 }  // namespace
 
 std::vector<Medium> media_around_camera(const World& world) {
@@ -73,34 +103,11 @@ Rgb transmittance(const World& world, const Tile& tile, std::uint32_t node, doub
 }
 
 Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<const accel::Crossing> crossings, const geometry::Ray& ray) {
-    constexpr double same = 1e-12;
-    Rgb filter{1, 1, 1}, depth;
-    std::vector<Medium> media;
-    if (world.absorbs) media = media_of_ray(world, tile, node);
-    for (std::size_t i = 0; i < crossings.size(); ++i) {
-        // Faces that a body has twice, or that overlap in it, are met at one distance, but crossed once: as by a seeing ray, which goes on
-        // clear of both. (At an edge that faces share a ray meets one of them anyway: geometry/ray_view.h.)
-        const accel::Hit& hit = crossings[i].hit;
-        if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
-        const accel::Instance& instance = world.instances[hit.instance];
-        const geometry::Ray local = accel::to_local(instance, ray);
-        const auto surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
-        const Lobes& lobes = world.lobes[world.material(hit.instance, surface.slot)];
-        filter *= lobes.shadow_filter;
-        if (!world.absorbs) continue;
-        const bool leaves = dot(surface.normal, local.direction) > 0;
-        if (const auto medium = find(media, hit.instance); medium != media.end()) {
-            depth += medium->attenuation * static_cast<float>(hit.t - medium->since);
-            media.erase(medium);
-        } else if (leaves) {
-            depth += lobes.attenuation * static_cast<float>(hit.t);
-        }
-        if (!leaves && !is_black(lobes.attenuation)) media.push_back({hit.instance, lobes.attenuation, hit.t});
-    }
-    if (std::isfinite(ray.t_max)) {
-        for (const Medium& m : media) depth += m.attenuation * static_cast<float>(ray.t_max - m.since);
-    }
-    return filter * exp_of_minus(depth);
+    return passage(world, world.absorbs ? media_of_ray(world, tile, node) : std::vector<Medium>{}, crossings, ray, false);
+}
+
+Rgb passage(const World& world, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, bool straight_only) {
+    return passage(world, std::vector<Medium>{}, crossings, ray, straight_only);
 }
 
 }  // namespace crescente::render

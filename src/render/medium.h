@@ -32,4 +32,8 @@ Rgb transmittance(const World& world, const Tile& tile, std::uint32_t node, doub
 // the media between them. ray.t_max is the distance of the light.
 Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<const accel::Crossing> crossings, const geometry::Ray& ray);
 
+// The same for a ray that starts anywhere: of the bodies that it starts in those are known that it leaves. straight_only: surfaces that bend light let through
+// what their coverage leaves alone, since bent light is looked for otherwise.
+Rgb passage(const World& world, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, bool straight_only);
+
 }  // namespace crescente::render

@@ -72,10 +72,7 @@ Progress Session::advance(const Deadline& deadline) {
             }
             s.drop_finished(tile);
         });
-        const RayCounts after = rays_of();
-        RayCounts& rays = s.level_rays[level];
-        rays.camera += after.camera - before.camera, rays.reflected += after.reflected - before.reflected;
-        rays.refracted += after.refracted - before.refracted, rays.shadow += after.shadow - before.shadow;
+        s.level_rays[level] += rays_of() - before;
         s.level_seconds[level] += std::chrono::duration<double>(Clock::now() - round).count();
 
         states = s.tile_states();

@@ -26,7 +26,7 @@ struct NodeRecord {
 static_assert(sizeof(NodeRecord) == 96);
 
 NodeRecord record_of(const Node& n) {
-    const int flags = n.inside | n.crossed << 1 | n.shadowed << 2 | n.spawned << 3 | n.hidden << 4;
+    const int flags = n.inside | n.crossed << 1 | n.shadowed << 2 | n.spawned << 3 | n.hidden << 4 | n.sampled << 5 | n.samples_reflection << 6 | n.samples_refraction << 7;
     return {n.position, n.normal, n.geometric_normal, n.offset, n.instance, n.primitive, n.material, n.parent, n.reflected, n.refracted, n.weight, n.local,
             n.depth, static_cast<std::uint8_t>(flags), 0};
 }
@@ -36,6 +36,7 @@ Node node_of(const NodeRecord& r) {
     n.instance = r.instance, n.primitive = r.primitive, n.material = r.material;
     n.parent = r.parent, n.reflected = r.reflected, n.refracted = r.refracted, n.weight = r.weight, n.local = r.local, n.depth = r.depth;
     n.inside = r.flags & 1, n.crossed = r.flags >> 1 & 1, n.shadowed = r.flags >> 2 & 1, n.spawned = r.flags >> 3 & 1, n.hidden = r.flags >> 4 & 1;
+    n.sampled = r.flags >> 5 & 1, n.samples_reflection = r.flags >> 6 & 1, n.samples_refraction = r.flags >> 7 & 1;
     return n;
 }
 
@@ -51,7 +52,7 @@ void nodes(Archive& a, std::vector<Node>& v) {
     list(a, v, sizeof(NodeRecord), [&](Node& node) {
         NodeRecord record = record_of(node);
         value(a, record);
-        if (record.flags >= 32 || record.zero != 0) a.fail();
+        if (record.zero != 0) a.fail();
         node = node_of(record);
     });
 }
@@ -90,13 +91,14 @@ template <class Archive>
 void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
-    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
+    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
                             cursor, todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
                             unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
     map(a, filtered, [&](std::uint64_t key) { return key < tile.shares.size(); });
     map(a, straight, [&](std::uint32_t key) { return key < tile.nodes.size(); });
+    array(a, samples), array(a, estimates);
     array(a, corners);
     rays(a, pending), rays(a, growing);
     array(a, quads), array(a, quads_before);

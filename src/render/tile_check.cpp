@@ -39,6 +39,7 @@ public:
         if (!nodes_hold()) return "has a node that is no part of a tree, or of nothing in the scene";
         if (!roots_hold()) return "has a pixel corner without a tree";
         if (!shares_hold()) return "has light that nobody knows of";
+        if (!samples_hold()) return "has samples that do not fit its nodes";
         if (!rays_hold(tile_.pending) || !rays_hold(tile_.growing)) return "has rays that come from nowhere";
         if (!quads_hold(tile_.quads, false) || !quads_hold(tile_.quads_before, true)) return "has pixels whose parts do not fit";
         if (!stopped_soundly()) return "was stopped where it cannot have been";
@@ -132,6 +133,16 @@ private:
             return p.parent < tile_.nodes.size() && !tile_.nodes[p.parent].left_scene() && tile_.nodes[p.parent].depth < 255 && send(p.parent, p.way);
         });
     }
+    bool samples_hold() const {
+        if (tile_.samples.size() > tile_.nodes.size() || tile_.estimates.size() != tile_.samples.size() * estimate_groups(world_)) return false;
+        const auto sums_hold = [](const Estimate& e) { return math::is_finite(e.diffuse) && math::is_finite(e.glossy); };
+        if (!std::all_of(tile_.estimates.begin(), tile_.estimates.end(), sums_hold)) return false;
+        for (std::size_t i = 0; i < tile_.nodes.size(); ++i) {
+            if (tile_.nodes[i].sampled && (i >= tile_.samples.size() || tile_.samples[i] == 0)) return false;
+        }
+        return true;
+    }
+
     // Whether the node can have sent this ray, which it does once.
     bool send(std::uint32_t node, Way way) {
         const auto bit = static_cast<std::uint8_t>(1 << static_cast<int>(way));

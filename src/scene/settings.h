@@ -7,7 +7,7 @@
 
 namespace crescente::scene {
 
-enum class Level { visible, shadows, reflections, edges };
+enum class Level { visible, shadows, reflections, edges, soft, indirect };
 enum class Tonemap { automatic, srgb, neutral };
 enum class AcceleratorKind { embree, kay_kajiya, linear };
 enum class SubpixelShortcut { off, exact, trust };
@@ -23,6 +23,9 @@ struct Settings {
     double threshold = 1.0 / 256;  // a ray is grown while any component of its influence exceeds this
     int depth = 12;                // most bounces of a ray; the safety net
     int supersampling = 2;         // a pixel is split at most this often: 4^n sub-pixels; 0: off
+    double noise = 0.01;           // soft, indirect: nodes are sampled until their error in the pixel is below this share of its brightness
+    int samples = 256;             // soft, indirect: most of a node
+    bool caustics = false;         // light that mirrors and glass throw on other surfaces; without it glass lets light through straight
     double contrast = 0.08;        // corners that differ by more, on a perceptual 0..1 scale, split the pixel
     Tonemap tonemap = Tonemap::automatic;
     double exposure = 0;           // stops

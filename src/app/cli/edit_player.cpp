@@ -18,10 +18,6 @@ Clock::time_point in_seconds(double seconds) {
     return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, longest)));
 }
 
-render::RayCounts difference(const render::RayCounts& a, const render::RayCounts& b) {
-    return {a.camera - b.camera, a.reflected - b.reflected, a.refracted - b.refracted, a.shadow - b.shadow};
-}
-
 // The place of a level among the choices of the setting.
 int level_index(const std::string& name) {
     for (const auto& field : scene::Settings::fields()) {
@@ -133,7 +129,7 @@ void EditPlayer::take(const render::EditReport& report) {
 void EditPlayer::end() {
     if (!edit_) return;
     const render::Stats stats = session_.stats();
-    edit_->rays = difference(stats.rays, stats_before_.rays);
+    edit_->rays = stats.rays - stats_before_.rays;
     const std::size_t all = tiles_of(session_.scene().settings);
     edit_->tiles = edit_->began_anew ? all : std::min<std::size_t>(all, stats.revised_tiles - stats_before_.revised_tiles);
     if (progress_.done) edit_->converged = elapsed_;

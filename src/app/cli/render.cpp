@@ -155,7 +155,8 @@ std::string summary(const render::Stats& stats, const render::RayCounts& rays_be
            human_time(times.total) + " (load " + human_time(times.load) + ", render " + human_time(times.render) + ", " +
            std::to_string(stats.threads) + (stats.threads == 1 ? " thread)\n" : " threads)\n") + "  rays: " + count(stats.rays.total()) +
            " (camera " + count(stats.rays.camera) + ", reflected " + count(stats.rays.reflected) + ", refracted " +
-           count(stats.rays.refracted) + ", shadow " + count(stats.rays.shadow) + "), " + human_rate(rate) + "\n" +
+           count(stats.rays.refracted) + ", shadow " + count(stats.rays.shadow) +
+           (stats.rays.path > 0 ? ", sampled " + count(stats.rays.path) : "") + "), " + human_rate(rate) + "\n" +
            "  kept: " + count(stats.nodes) + " nodes, " + bytes + " bytes per pixel\n";
 }
 

@@ -40,7 +40,7 @@ Expected<ScriptProgress> progress_of(const std::string& note, const std::vector<
     const auto fresh = json.find("fresh");
     if (fresh == json.end() || !fresh->is_object()) return progress;
     const auto seconds = fresh->find("seconds");
-    progress.fresh = FreshRender{{number(*fresh, "camera"), number(*fresh, "reflected"), number(*fresh, "refracted"), number(*fresh, "shadow")},
+    progress.fresh = FreshRender{{number(*fresh, "camera"), number(*fresh, "reflected"), number(*fresh, "refracted"), number(*fresh, "shadow"), number(*fresh, "path")},
                                  seconds != fresh->end() && seconds->is_number() ? seconds->get<double>() : 0};
     return progress;
 }
@@ -60,7 +60,7 @@ std::string note_of(const ScriptProgress& progress, const std::vector<io::Script
     Json note = {{"line", progress.line}, {"script", checksum_until(progress.line, lines)}};
     if (progress.fresh) {
         const render::RayCounts& rays = progress.fresh->rays;
-        note["fresh"] = {{"camera", rays.camera}, {"reflected", rays.reflected}, {"refracted", rays.refracted}, {"shadow", rays.shadow}, {"seconds", progress.fresh->seconds}};
+        note["fresh"] = {{"camera", rays.camera}, {"reflected", rays.reflected}, {"refracted", rays.refracted}, {"shadow", rays.shadow}, {"path", rays.path}, {"seconds", progress.fresh->seconds}};
     }
     return note.dump();
 }

@@ -4,7 +4,7 @@ namespace crescente::app {
 
 nlohmann::ordered_json rays_json(const render::RayCounts& rays) {
     return {{"camera", rays.camera}, {"reflected", rays.reflected}, {"refracted", rays.refracted},
-            {"shadow", rays.shadow}, {"total", rays.total()}};
+            {"shadow", rays.shadow}, {"path", rays.path}, {"total", rays.total()}};
 }
 
 nlohmann::ordered_json stats_json(const render::Stats& stats) {

@@ -1,0 +1,40 @@
+// What levels that sample know of the light at a node: sums of samples by group of lights, kept at the node. Strength and colour of a group stand outside of its
+// sums, so that changing them asks for no sample.
+#pragma once
+
+#include <cstdint>
+
+#include "math/color.h"
+#include "render/world.h"
+#include "scene/settings.h"
+
+namespace crescente::render {
+
+struct Tile;
+
+// The light of one group at one node, from so many samples as Tile::samples says.
+struct Estimate {
+    Rgb diffuse, glossy;       // sums of radiance to the viewer, by part of the material, for a group of scale 1
+    std::uint32_t spread = 0;  // until the pilot is complete: sum of squared luminances; from then on how the pilot's samples were spread
+};
+static_assert(sizeof(Estimate) == 28);
+
+// The first samples of every node: they show how many more it needs (two-stage sampling after Stein 1945, "A Two-Sample Test for a Linear Hypothesis Whose
+// Power is Independent of the Variance"). What they showed is kept, so that an edit that keeps samples comes to the decisions of a fresh render.
+inline constexpr std::uint32_t pilot = 16;
+
+// Groups that estimates are kept for: those of World::emitters, and one for the light of all lamps without extent that comes by way of other surfaces.
+std::size_t estimate_groups(const World& world);
+Rgb scale_of_group(const World& world, std::size_t group);
+
+// Adds sample number `index` of a node, counted from 0, to the sums.
+void add_sample(Estimate& estimate, std::uint32_t index, Rgb diffuse, Rgb glossy);
+
+// Radiance to the viewer that the samples of a node say; it must have some.
+Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node);
+
+// Samples that a node whose pilot is complete should have in all: a power of two times the pilot's, up to the settings' bound, such that its error times its
+// influence is below the settings' noise, relative to how bright the node is in the pixel.
+std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node);
+
+}  // namespace crescente::render

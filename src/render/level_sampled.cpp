@@ -1,0 +1,159 @@
+#include "render/level_sampled.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "render/path_sampler.h"
+
+namespace crescente::render {
+namespace {
+
+std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
+    std::vector<Stage> stages;
+    int before = 0;
+    for (int bound = 1; before < settings.samples; bound *= 4) {
+        const int samples = std::min(bound, settings.samples);
+        stages.push_back({level, double(samples), double(samples - before)});
+        before = samples;
+    }
+    return stages;
+}
+
+// By which the random numbers of a node go: where it is, to the bit. So they are the same in every tile, and whatever became of other nodes.
+std::uint64_t key_of(Vec3 position) {
+    std::uint64_t key = 0;
+    for (const double x : {position.x, position.y, position.z}) key = mix_bits(key ^ std::bit_cast<std::uint64_t>(x));
+    return key;
+}
+
+class Sampling {
+public:
+    Sampling(Growth& growth, const Stage& stage)
+        : growth_(growth),
+          tile_(growth.tile()),
+          world_(growth.world()),
+          groups_(estimate_groups(growth.world())),
+          bound_(static_cast<std::uint32_t>(stage.parameter)),
+          most_(static_cast<std::uint32_t>(growth.settings().samples)),
+          sampler_(growth.world(), growth.tile().rays, growth.tile().tests) {}
+
+    bool run(const Deadline& deadline) {
+        tile_.samples.resize(tile_.nodes.size());
+        tile_.estimates.resize(tile_.nodes.size() * groups_);
+        find_unseen();
+        while (tile_.cursor < tile_.nodes.size()) {
+            std::size_t end = tile_.cursor;
+            for (; end < tile_.nodes.size() && chunk_.size() < chunk_size; ++end) {
+                const auto i = static_cast<std::uint32_t>(end);
+                if (unseen_[i] || tile_.nodes[i].left_scene()) continue;
+                forget_too_many(i);
+                if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i)) chunk_.push_back(i);
+            }
+            const bool complete = sample_chunk(deadline);
+            show_chunk();
+            chunk_.clear();
+            if (!complete) return false;
+            tile_.cursor = end;
+        }
+        return true;
+    }
+
+private:
+    // Nodes that are no part of the picture: below what was hidden, and below rays that stand for lobes that are sampled.
+    void find_unseen() {
+        unseen_.assign(tile_.nodes.size(), 0);
+        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
+            const Node& node = tile_.nodes[i];
+            if (node.parent == no_node) continue;
+            const Node& parent = tile_.nodes[node.parent];
+            const Smooth smooth = smooth_lobes(world_.lobes[parent.material]);
+            const bool stands_in = (parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts);
+            unseen_[i] = node.hidden || stands_in || unseen_[node.parent];
+        }
+    }
+
+    std::uint32_t goal(std::uint32_t i) const {
+        if (bound_ <= pilot) return bound_;
+        return tile_.samples[i] < pilot ? pilot : std::min(bound_, samples_needed(world_, tile_, i));
+    }
+
+    // After an edit a node may have more samples than a fresh render would have given it.
+    void forget_too_many(std::uint32_t i) {
+        const std::uint32_t samples = tile_.samples[i];
+        const std::uint32_t needed = most_ <= pilot ? most_ : samples >= pilot ? samples_needed(world_, tile_, i) : samples;
+        if (samples <= needed) return;
+        tile_.samples[i] = 0;
+        std::fill_n(tile_.estimates.begin() + static_cast<std::ptrdiff_t>(i * groups_), groups_, Estimate{});
+    }
+
+    // One sample of each after the other, so that neighbours are traced together. Whether there was time for all.
+    bool sample_chunk(const Deadline& deadline) {
+        while (true) {
+            wanting_.clear(), points_.clear();
+            for (const std::uint32_t i : chunk_) {
+                if (tile_.samples[i] < goal(i)) wanting_.push_back(i), points_.push_back(point_of(i));
+            }
+            if (points_.empty()) return true;
+            light_.resize(points_.size() * groups_);
+            sampler_.sample(points_, light_);
+            for (std::size_t k = 0; k < wanting_.size(); ++k) {
+                const std::uint32_t i = wanting_[k];
+                for (std::size_t g = 0; g < groups_; ++g) {
+                    const SampledLight& light = light_[k * groups_ + g];
+                    add_sample(tile_.estimates[i * groups_ + g], tile_.samples[i], light.diffuse, light.glossy);
+                }
+                ++tile_.samples[i];
+            }
+            if (deadline.passed()) return false;
+        }
+    }
+
+    SamplePoint point_of(std::uint32_t i) const {
+        const Node& node = tile_.nodes[i];
+        const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
+        SamplePoint point;
+        point.position = node.position;
+        point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), {}, node.inside};
+        point.to_viewer = normalize(viewer - node.position);
+        point.offset = node.offset;
+        point.lobes = &world_.lobes[node.material];
+        point.key = key_of(node.position);
+        point.index = tile_.samples[i];
+        return point;
+    }
+
+    // Lights the chunk's nodes that have samples by them.
+    void show_chunk() {
+        std::erase_if(chunk_, [&](std::uint32_t i) { return tile_.samples[i] == 0; });
+        for (const std::uint32_t i : chunk_) {
+            Node& node = tile_.nodes[i];
+            const Smooth smooth = smooth_lobes(world_.lobes[node.material]);
+            node.sampled = true;
+            node.samples_reflection = !smooth.reflects, node.samples_refraction = !smooth.refracts;
+        }
+        growth_.light(chunk_, true, accel::Coherence::coherent);
+    }
+
+    Growth& growth_;
+    Tile& tile_;
+    const World& world_;
+    const std::size_t groups_;
+    const std::uint32_t bound_, most_;
+    PathSampler sampler_;
+    std::vector<std::uint8_t> unseen_;  // by node
+    std::vector<std::uint32_t> chunk_, wanting_;
+    std::vector<SamplePoint> points_;
+    std::vector<SampledLight> light_;
+};
+
+}  // namespace
+
+std::vector<Stage> soft_stages(const scene::Settings& settings) {
+    return settings.level == scene::Level::soft ? rounds(scene::Level::soft, settings) : std::vector<Stage>{};
+}
+
+std::vector<Stage> indirect_stages(const scene::Settings& settings) { return rounds(scene::Level::indirect, settings); }
+
+bool advance_sampled(Growth& growth, const Stage& stage, const Deadline& deadline) { return Sampling(growth, stage).run(deadline); }
+
+}  // namespace crescente::render

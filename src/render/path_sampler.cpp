@@ -1,0 +1,273 @@
+#include "render/path_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/low_discrepancy.h"
+#include "render/estimates.h"
+#include "render/hit_surface.h"
+#include "render/medium.h"
+
+namespace crescente::render {
+namespace {
+
+using accel::Coherence;
+using accel::Hit;
+using geometry::Ray;
+
+constexpr std::size_t groups_at_once = 4;  // of those with extent that a point sends a ray to in one sample; the next samples take the next ones
+constexpr int sure_steps = 2;              // after so many, paths of little throughput may end
+
+// What the numbers of a sample are for: each use has a sequence of its own.
+enum class Use : std::uint64_t { scatter, light, lamp, first_light };
+std::array<double, 4> numbers(const SamplePoint& point, int depth, Use use, std::size_t which = 0) {
+    const std::uint64_t place = static_cast<std::uint64_t>(depth) << 32 | static_cast<std::uint64_t>(use) << 24 | which;
+    return low_discrepancy(point.key ^ mix_bits(place + 1), point.index);
+}
+
+// Power heuristic with exponent 2: the share of a direction drawn with density a that could also have been drawn with density b.
+double power_share(double a, double b) { return a <= 0 ? 0 : 1 / (1 + (b / a) * (b / a)); }
+
+Rgb over(Rgb color, double divisor) { return color * static_cast<float>(1 / divisor); }
+
+Rgb absorbed(const Lobes& lobes, double length) {
+    const auto d = static_cast<float>(length);
+    return {std::exp(-lobes.attenuation.r * d), std::exp(-lobes.attenuation.g * d), std::exp(-lobes.attenuation.b * d)};
+}
+
+}  // namespace
+
+PathSampler::PathSampler(const World& world, RayCounts& rays, TestCounts& tests)
+    : world_(world),
+      settings_(world.scene.settings),
+      counts_(rays),
+      tests_(tests),
+      groups_(world.emitters.groups()),
+      goes_on_(settings_.level >= scene::Level::indirect) {}
+
+void PathSampler::sample(std::span<const SamplePoint> points, std::span<SampledLight> light) {
+    light_ = light;
+    std::fill(light_.begin(), light_.end(), SampledLight{});
+    begin(points);
+    trace_connections();
+    while (!paths_.empty()) {
+        step(points);
+        trace_connections();
+    }
+}
+
+// Light of the groups at the points themselves, and the first directions that their materials draw.
+void PathSampler::begin(std::span<const SamplePoint> points) {
+    paths_.clear(), rays_.clear();
+    const std::size_t sampled = std::min(groups_, groups_at_once);
+    const double chance = groups_ == 0 ? 0 : static_cast<double>(sampled) / static_cast<double>(groups_);
+    for (std::size_t k = 0; k < sampled; ++k) {
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            const SamplePoint& p = points[i];
+            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes};
+            const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
+            const auto u = numbers(p, 0, Use::first_light, group);
+            if (const auto arrived = sample_group(vertex, group, chance, false, {u[0], u[1], u[2]})) {
+                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, arrived->value.glossy * arrived->light});
+            }
+        }
+    }
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const SamplePoint& p = points[i];
+        const auto u = numbers(p, 0, Use::scatter);
+        const auto s = sample_scatter(*p.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
+        if (!s) continue;
+        Path path{};
+        path.point = i;
+        path.diffuse = over(s->value.diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
+        path.throughput = path.throughput_on = {1, 1, 1};
+        path.from = p.position;
+        path.pdf = s->value.pdf;
+        path.chance = chance;
+        path.scattered = s->part == Part::diffuse, path.glossy_last = s->part == Part::glossy;
+        paths_.push_back(path);
+        rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes}, s->direction));
+    }
+}
+
+// Traces the paths' rays, and finds how each goes on.
+void PathSampler::step(std::span<const SamplePoint> points) {
+    hits_.resize(rays_.size());
+    accel::TestCounts counts;
+    world_.accelerator->nearest(rays_, hits_, Coherence::incoherent, counts);
+    counts_.path += rays_.size();
+    tests_.box_tests += counts.box_tests, tests_.shape_tests += counts.shape_tests;
+    next_.clear(), next_rays_.clear();
+    for (std::size_t block = 0; block < rays_.size(); block += lane_count) {
+        const int count = static_cast<int>(std::min<std::size_t>(lane_count, rays_.size() - block));
+        unsigned found = 0;
+        for (int i = 0; i < count; ++i) found |= hits_[block + i].found() ? 1u << i : 0u;
+        SurfaceLanes at;
+        if (found) at = surfaces_at(world_, &rays_[block], &hits_[block], found);
+        for (int i = 0; i < count; ++i) {
+            Path path = paths_[block + i];
+            const Ray& ray = rays_[block + i];
+            const Hit& hit = hits_[block + i];
+            meet_lights(path, ray, hit);
+            if (!hit.found()) continue;
+            const Lobes& lobes = world_.lobes[at.material[i]];
+            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes};
+            if (vertex.facing.inside && !is_black(lobes.attenuation)) {
+                const Rgb rest = absorbed(lobes, hit.t);
+                path.throughput *= rest, path.throughput_on *= rest;
+            }
+            if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, at.material[i], vertex.position, path.from)) take(path, *emitted);
+            if (!goes_on_ && path.depth == 0) path.diffuse = {};
+            path.throughput = path.throughput_on;
+            if (max_component((path.diffuse + path.glossy) * path.throughput) > 0) go_on(vertex, path, points[path.point]);
+        }
+    }
+    std::swap(paths_, next_), std::swap(rays_, next_rays_);
+}
+
+// What shines on the way to the hit, or around the scene.
+void PathSampler::meet_lights(const Path& path, const Ray& ray, const Hit& hit) {
+    Ray way = ray;
+    way.t_max = hit.t;
+    met_.clear();
+    world_.emitters.lights_on(way, path.from, met_);
+    for (const Emitted& emitted : met_) take(path, emitted);
+    if (hit.found()) return;
+    if (const auto sky = world_.emitters.environment(ray.direction)) take(path, *sky);
+}
+
+// Light that a path met, as far as it was not sampled where its ray starts.
+void PathSampler::take(const Path& path, const Emitted& emitted) {
+    if (path.unlit || !world_.emitters.casts_shadows(emitted.group)) return;  // lights that nothing is in the way of are only sampled
+    const bool highlights = world_.emitters.makes_highlights(emitted.group);
+    if (!highlights && path.glossy_last) return;
+    const double share = path.pdf == 0 ? 1 : power_share(path.pdf, path.chance * emitted.pdf);
+    const Rgb light = path.throughput * emitted.radiance * static_cast<float>(share);
+    add(path.point, emitted.group, path.diffuse * light, highlights || path.depth > 0 ? path.glossy * light : Rgb{});
+}
+
+// Light at a vertex of a path, and its next ray.
+void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& point) {
+    const int depth = ++path.depth;
+    const auto scatter_numbers = numbers(point, depth, Use::scatter);
+    if (groups_ > 0) {
+        const auto u = numbers(point, depth, Use::light);
+        const auto group = std::min(static_cast<std::size_t>(u[3] * static_cast<double>(groups_)), groups_ - 1);
+        if (const auto arrived = sample_group(vertex, group, 1.0 / static_cast<double>(groups_), true, {u[0], u[1], u[2]})) {
+            const Rgb light = path.throughput * (arrived->value.diffuse + arrived->value.glossy) * arrived->light;
+            queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(group), path.diffuse * light, path.glossy * light});
+        }
+    }
+    if (const auto arrived = sample_lamp(vertex, numbers(point, depth, Use::lamp)[0])) {
+        const Rgb light = path.throughput * arrived->light;
+        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light});
+    }
+    if (depth >= settings_.depth) return;
+    if (depth >= sure_steps) {  // Russian roulette (Arvo and Kirk 1990)
+        const double survival = std::min(0.95, double(max_component(path.throughput)));
+        if (scatter_numbers[3] >= survival) return;
+        path.throughput = over(path.throughput, survival);
+    }
+    const auto s = sample_scatter(*vertex.lobes, vertex.facing, vertex.to_viewer, {scatter_numbers[2], scatter_numbers[0], scatter_numbers[1]}, true);
+    if (!s) return;
+    const Rgb all = over(s->value.diffuse + s->value.glossy, s->value.pdf);
+    path.throughput_on = path.throughput * (goes_on_ || s->delta ? all : over(s->value.glossy, s->value.pdf));
+    path.throughput *= all;
+    const bool straight = s->delta && s->direction == -vertex.to_viewer;
+    if (!straight) {  // else its ray goes on as if there were nothing
+        path.from = vertex.position;
+        path.pdf = s->delta ? 0 : s->value.pdf;
+        path.chance = groups_ == 0 ? 0 : 1.0 / static_cast<double>(groups_);
+        path.unlit = s->delta && path.scattered && !settings_.caustics;  // what comes so through glass, shadow rays have told
+        path.scattered = path.scattered || s->part == Part::diffuse;
+        path.glossy_last = s->part == Part::glossy;
+    }
+    next_.push_back(path);
+    next_rays_.push_back(ray_from(vertex, s->direction));
+}
+
+// A direction to a group, weighed against the directions that the material draws. chance: that the group is sampled here.
+std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, std::size_t group, double chance, bool with_delta, const std::array<double, 3>& u) const {
+    const auto sample = world_.emitters.sample(group, v.position, u);
+    if (!sample || !(sample->pdf > 0)) return std::nullopt;
+    Arrived arrived{scatter(*v.lobes, v.facing, v.to_viewer, sample->direction, with_delta), sample->direction, sample->distance, {}};
+    if (!world_.emitters.makes_highlights(group)) arrived.value.glossy = {};
+    if (is_black(arrived.value.diffuse) && is_black(arrived.value.glossy)) return std::nullopt;
+    const double density = chance * sample->pdf;
+    const double share = world_.emitters.casts_shadows(group) ? power_share(density, arrived.value.pdf) : 1;
+    arrived.light = sample->radiance * static_cast<float>(share / density);
+    return arrived;
+}
+
+// One of the lamps without extent, chosen by what they would bring if nothing were in the way; `light` is what the vertex sends to the viewer.
+std::optional<PathSampler::Arrived> PathSampler::sample_lamp(const Vertex& v, double u) {
+    const auto bring = [&](const Light& lamp, const Incident& incident) {
+        const double cosine = dot(v.facing.shading, incident.to_light);
+        if (is_black(incident.strength) || cosine <= 0 || dot(v.facing.geometric, incident.to_light) <= 0) return Rgb{};
+        return incident.strength * reflect_light(*v.lobes, v.facing.shading, v.to_viewer, incident.to_light, cosine, lamp.makes_highlights());
+    };
+    const auto count = world_.lights.size();
+    lamps_.assign(count, 0);
+    float sum = 0;
+    for (std::size_t l = 0; l < count; ++l) {
+        const Light& lamp = world_.lights[l];
+        if (!lamp.has_extent()) sum += lamps_[l] = luminance(bring(lamp, lamp.at(v.position)));
+    }
+    if (!(sum > 0) || !std::isfinite(sum)) return std::nullopt;
+    float rest = static_cast<float>(u) * sum;
+    std::size_t chosen = count;
+    for (std::size_t l = 0; l < count; ++l) {
+        if (!(lamps_[l] > 0)) continue;
+        chosen = l;
+        if (rest < lamps_[l]) break;
+        rest -= lamps_[l];
+    }
+    const Light& lamp = world_.lights[chosen];
+    const Incident incident = lamp.at(v.position);
+    Arrived arrived{{}, incident.to_light, incident.distance, bring(lamp, incident) * (sum / lamps_[chosen])};
+    if (!lamp.casts_shadows()) arrived.distance = 0;
+    return arrived;
+}
+
+Ray PathSampler::ray_from(const Vertex& v, Vec3 direction) const {
+    Ray ray;
+    ray.origin = v.position + v.facing.geometric * (dot(v.facing.geometric, direction) >= 0 ? v.offset : -v.offset);
+    ray.direction = direction;
+    return ray;
+}
+
+void PathSampler::queue(const Vertex& v, const Arrived& arrived, const Connection& connection) {
+    const bool open = arrived.distance == 0 || (connection.group < groups_ && !world_.emitters.casts_shadows(connection.group));
+    if (open) return add(connection.point, connection.group, connection.diffuse, connection.glossy);
+    shadow_rays_.push_back(ray_from(v, arrived.direction));
+    shadow_rays_.back().t_max = arrived.distance * (1 - 1e-9) - 2 * v.offset;  // short of the surface that shines
+    connections_.push_back(connection);
+}
+
+void PathSampler::trace_connections() {
+    hits_.resize(shadow_rays_.size());
+    crossings_.clear();
+    accel::TestCounts counts;
+    world_.accelerator->shadow(shadow_rays_, hits_, crossings_, Coherence::incoherent, counts);
+    counts_.shadow += shadow_rays_.size();
+    tests_.box_tests += counts.box_tests, tests_.shape_tests += counts.shape_tests;
+    accel::sort_by_ray(crossings_);
+    auto crossing = crossings_.begin();
+    for (std::uint32_t i = 0; i < shadow_rays_.size(); ++i) {
+        const auto first = crossing;
+        while (crossing != crossings_.end() && crossing->ray == i) ++crossing;
+        if (hits_[i].found()) continue;
+        const Connection& c = connections_[i];
+        const Rgb filter = first == crossing ? Rgb{1, 1, 1} : passage(world_, {first, crossing}, shadow_rays_[i], settings_.caustics);
+        add(c.point, c.group, c.diffuse * filter, c.glossy * filter);
+    }
+    shadow_rays_.clear(), connections_.clear();
+}
+
+void PathSampler::add(std::uint32_t point, std::size_t group, Rgb diffuse, Rgb glossy) {
+    SampledLight& sum = light_[point * (groups_ + 1) + group];
+    if (is_finite(diffuse)) sum.diffuse += diffuse;
+    if (is_finite(glossy)) sum.glossy += glossy;
+}
+
+}  // namespace crescente::render

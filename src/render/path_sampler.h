@@ -1,0 +1,101 @@
+// Light at points by sampling: directions to lights with extent and directions drawn from the material, weighed against each other (Veach and Guibas 1995,
+// "Optimally Combining Sampling Techniques for Monte Carlo Rendering", power heuristic), and paths that go on from what these meet (Kajiya 1986, "The Rendering
+// Equation"). Rays are traced in batches, one step of all paths after the other; what a point gets depends on the point and the number of its sample alone.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "accel/accelerator.h"
+#include "render/bsdf.h"
+#include "render/counts.h"
+#include "render/world.h"
+
+namespace crescente::render {
+
+// A point on a surface that is to get a sample.
+struct SamplePoint {
+    Vec3 position;
+    Facing facing;
+    Vec3 to_viewer;
+    double offset = 0;   // how far from position, along the geometric normal, rays may start
+    const Lobes* lobes = nullptr;
+    std::uint64_t key = 0;    // of its random numbers
+    std::uint32_t index = 0;  // of the sample
+};
+
+// Radiance to the viewer, by part of the point's material, for a group of scale 1.
+struct SampledLight {
+    Rgb diffuse, glossy;
+};
+
+class PathSampler {
+public:
+    PathSampler(const World& world, RayCounts& rays, TestCounts& tests);
+
+    // One sample of every point: light[i * groups + g] is what point i gets by group g of estimate_groups(). Lamps without extent are left out where they shine on
+    // the point itself, and so are its perfectly smooth lobes: these are known without sampling. Light that would not be finite is left out.
+    void sample(std::span<const SamplePoint> points, std::span<SampledLight> light);
+
+private:
+    struct Path {
+        std::uint32_t point;
+        Rgb diffuse, glossy;  // what the point sends to the viewer of a unit of the path's light, by its part
+        Rgb throughput;       // from the end to the point
+        Rgb throughput_on;    // the same for what is not light at the next hit already
+        Vec3 from;            // where the ray starts
+        double pdf;           // of the ray's direction; 0: a smooth lobe's
+        double chance;        // that a light was also sampled where the ray starts
+        std::uint8_t depth;
+        bool scattered;       // some lobe on the way was diffuse
+        bool glossy_last;     // the lobe that sent the ray was
+        bool unlit;           // lights that it meets next do not count
+    };
+    struct Connection {  // a shadow ray, and what it brings if nothing is in the way
+        std::uint32_t point, group;
+        Rgb diffuse, glossy;
+    };
+    struct Vertex {  // where a path met a surface
+        Vec3 position;
+        Facing facing;
+        Vec3 to_viewer;
+        double offset;
+        const Lobes* lobes;
+    };
+    struct Arrived {  // light of a group at a vertex, and what this sends back of it
+        Scattered value;
+        Vec3 direction;
+        double distance;
+        Rgb light;
+    };
+    void begin(std::span<const SamplePoint> points);
+    void step(std::span<const SamplePoint> points);
+    void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);
+    void take(const Path& path, const Emitted& emitted);
+    void go_on(const Vertex& vertex, Path path, const SamplePoint& point);
+    std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, const std::array<double, 3>& u) const;
+    std::optional<Arrived> sample_lamp(const Vertex& vertex, double u);
+    void queue(const Vertex& vertex, const Arrived& arrived, const Connection& connection);
+    void trace_connections();
+    void add(std::uint32_t point, std::size_t group, Rgb diffuse, Rgb glossy);
+    geometry::Ray ray_from(const Vertex& vertex, Vec3 direction) const;
+
+    const World& world_;
+    const scene::Settings& settings_;
+    RayCounts& counts_;
+    TestCounts& tests_;
+    const std::size_t groups_;
+    const bool goes_on_;  // diffuse light comes from other surfaces too
+    std::span<SampledLight> light_;
+    std::vector<Path> paths_, next_;
+    std::vector<geometry::Ray> rays_, next_rays_, shadow_rays_;
+    std::vector<accel::Hit> hits_;
+    std::vector<Connection> connections_;
+    std::vector<accel::Crossing> crossings_;
+    std::vector<Emitted> met_;
+    std::vector<float> lamps_;  // how bright each is at a vertex
+};
+
+}  // namespace crescente::render
