@@ -17,6 +17,7 @@ void light(Archive& a, scene::Light& v) {
     value(a, v.name), value(a, v.kind), value(a, v.position), value(a, v.direction), value(a, v.color), value(a, v.intensity);
     value(a, v.inner_angle), value(a, v.outer_angle), value(a, v.gradient), value(a, v.exponent), value(a, v.falloff);
     value(a, v.constant), value(a, v.linear), value(a, v.quadratic), value(a, v.range), value(a, v.shadows), value(a, v.highlights);
+    value(a, v.up), value(a, v.width), value(a, v.height), value(a, v.radius), value(a, v.two_sided), value(a, v.visible), value(a, v.group);
 }
 
 template <class Archive>

@@ -79,7 +79,7 @@ std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<
     tile_.tests.shape_tests += counts.shape_tests;
     seeds_.assign(points.size(), {});
     append();
-    if (world_.environment.backdrop) {
+    if (world_.environment.backdrop()) {
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!hits_[i].found()) tile_.nodes[first + i].local = backdrop_at(world_, points[i]);
         }

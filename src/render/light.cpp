@@ -28,6 +28,7 @@ Reach<T> Light::reach(const VecOf<T>& point) const {
     const auto apart = distance > 0.0;
     const T unit = apart ? distance : T{} + 1.0;
     Reach<T> at{{path.x / unit, path.y / unit, path.z / unit}, distance, falloff(unit)};
+    if (scene::is_flat(light_)) at.factor *= flat(T(-(at.to_light.x * axis_.x + at.to_light.y * axis_.y + at.to_light.z * axis_.z)));
     if (oriented_) at.factor *= cone(T(-(at.to_light.x * axis_.x + at.to_light.y * axis_.y + at.to_light.z * axis_.z)));
     at.factor = apart ? at.factor : T{};
     return at;
@@ -35,6 +36,12 @@ Reach<T> Light::reach(const VecOf<T>& point) const {
 
 template Reach<double> Light::reach(const VecOf<double>&) const;
 template Reach<Lanes> Light::reach(const VecOf<Lanes>&) const;
+
+// Intensity of an evenly bright area at the angle of this cosine from its axis, over that along the axis (Lambert's cosine law).
+template <class T>
+T Light::flat(const T& cosine) const {
+    return light_.two_sided ? greater(cosine, T(-cosine)) : greater(cosine, T{});
+}
 
 // Share of full strength at the angle of this cosine from the axis.
 template <class T>

@@ -1,4 +1,4 @@
-// Lights compiled for shading.
+// Lights compiled for shading: as points or directions. Lights with extent act at their centre until there are samples of them (render/emitters.h).
 #pragma once
 
 #include "math/color.h"
@@ -31,12 +31,15 @@ public:
     Incident at(Vec3 point) const;
     template <class T>
     Reach<T> reach(const VecOf<T>& point) const;
+    bool has_extent() const { return scene::has_extent(light_); }
     const scene::Light& source() const { return light_; }
     Rgb color() const { return color_; }
     bool casts_shadows() const { return light_.shadows; }
     bool makes_highlights() const { return light_.highlights; }
 
 private:
+    template <class T>
+    T flat(const T& cosine) const;
     template <class T>
     T cone(const T& cosine) const;
     template <class T>

@@ -132,7 +132,7 @@ private:
     }
     void update_sky(Node& node, LatticePoint at) {
         const Rgb was = node.local;
-        const bool backdrop = node.parent == no_node && now_.environment.backdrop;
+        const bool backdrop = node.parent == no_node && now_.environment.backdrop();
         node.local = backdrop ? backdrop_at(now_, at) : environment_radiance(now_.environment, node.position);
         if (node.local != was) touched_ = true;
     }

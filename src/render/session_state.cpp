@@ -88,7 +88,7 @@ std::optional<Reprojected> Session::State::seen_anew(const World& before) try {
     const auto has_corners = [&](const Tile& tile) { return tile.stage >= stages_to_all_roots(world->scene.settings); };
     if (seen.empty() || std::all_of(tiles.begin(), tiles.end(), has_corners)) {
         seen.assign(pixels, {});
-        pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], before.environment.backdrop, width(), seen); });
+        pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], before.environment.backdrop(), width(), seen); });
     }
     return reproject(seen, world->camera, width(), height(), pool);
 } catch (const std::bad_alloc&) {

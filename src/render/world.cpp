@@ -35,8 +35,9 @@ void derive(World& world) {
         if (std::any_of(sides.begin(), sides.end(), [](std::uint8_t one) { return one != 0; })) world.instances[i].one_sided = sides;
     }
     for (const scene::Light& light : s.lights) world.lights.emplace_back(light);
-    if (s.environment) world.environment = *s.environment;
+    if (s.environment) world.environment = Environment(*s.environment);
     world.camera_media = media_around_camera(world);
+    if (s.settings.level > scene::Level::edges) world.emitters = Emitters(world);
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
 
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}});
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}});
     derive(*world);
     return world;
 }

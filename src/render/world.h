@@ -8,6 +8,8 @@
 #include "accel/accelerator.h"
 #include "base/error.h"
 #include "render/camera_rays.h"
+#include "render/emitters.h"
+#include "render/environment.h"
 #include "render/light.h"
 #include "render/lobes.h"
 #include "render/medium.h"
@@ -26,12 +28,13 @@ struct World {
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
     std::vector<Lobes> lobes;                     // one for each material of the scene, and a default one at the end
     std::vector<Light> lights;
-    scene::Environment environment;
+    Environment environment;
     CameraRays camera;
     std::unique_ptr<accel::Accelerator> accelerator;
     bool filters_light = false;  // some instance is not opaque
     bool absorbs = false;        // some instance is a medium with an attenuation
     std::vector<Medium> camera_media;
+    Emitters emitters;           // what has extent, for the levels that sample it; none below them
 
     // Index into lobes of what a hit's surface is made of.
     std::uint32_t material(std::uint32_t instance, std::uint32_t slot) const {

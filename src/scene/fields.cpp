@@ -39,11 +39,11 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
 
 const FieldTable<Light>& Light::fields() {
     static const FieldTable<Light> table{
-        field(&Light::kind, {"kind", FieldType::choice, "", 0, 1, "What shines", {"point", "directional"}}),
-        field(&Light::position, {"position", FieldType::vector, "m", -unbounded, unbounded, "Place of a point light"}),
+        field(&Light::kind, {"kind", FieldType::choice, "", 0, 1, "What shines", {"point", "directional", "rectangle", "disk", "sphere"}}),
+        field(&Light::position, {"position", FieldType::vector, "m", -unbounded, unbounded, "Place of a point light, centre of one with extent"}),
         field(&Light::direction, {"direction", FieldType::vector, "", -unbounded, unbounded, "Where it shines"}),
         field(&Light::color, {"color", FieldType::color, "", 0, unbounded, "Linear RGB"}),
-        field(&Light::intensity, {"intensity", FieldType::number, "cd|lx", 0, unbounded, "Candela for points, lux for directions"}),
+        field(&Light::intensity, {"intensity", FieldType::number, "cd|lx", 0, unbounded, "Lux for directions, else candela; of lights with extent along the axis, on each side"}),
         field(&Light::inner_angle, {"inner_angle", FieldType::angle, "deg", 0, 180, "Half angle of the cone of full light"}),
         field(&Light::outer_angle, {"outer_angle", FieldType::angle, "deg", 0, 180, "Half angle of the cone of any light; 180: all around"}),
         field(&Light::gradient, {"gradient", FieldType::choice, "", 0, 2, "Transition between the cones", {"smooth", "linear", "power"}}),
@@ -55,6 +55,13 @@ const FieldTable<Light>& Light::fields() {
         field(&Light::range, {"range", FieldType::number, "m", 0, unbounded, "Distance at which the light ends; 0: none"}),
         field(&Light::shadows, {"shadows", FieldType::boolean, "", 0, 1, "Objects stand in its way"}),
         field(&Light::highlights, {"highlights", FieldType::boolean, "", 0, 1, "Makes highlights"}),
+        field(&Light::up, {"up", FieldType::vector, "", -unbounded, unbounded, "Which way the height of a rectangle runs"}),
+        field(&Light::width, {"width", FieldType::number, "m", 0, unbounded, "Width of a rectangle"}),
+        field(&Light::height, {"height", FieldType::number, "m", 0, unbounded, "Height of a rectangle"}),
+        field(&Light::radius, {"radius", FieldType::number, "m", 0, unbounded, "Radius of a disk or sphere"}),
+        field(&Light::two_sided, {"two_sided", FieldType::boolean, "", 0, 1, "A rectangle or disk shines to both sides"}),
+        field(&Light::visible, {"visible", FieldType::boolean, "", 0, 1, "The camera sees the rectangle, disk or sphere itself; mirrors always do"}),
+        field(&Light::group, {"group", FieldType::text, "", 0, 0, "Lights with extent of one group are sampled together; empty: each by itself"}),
     };
     return table;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,7 @@ private:
         if (scene_.camera) check_camera(*scene_.camera);
         if (scene_.environment) check_fields(*scene_.environment, "/environment");
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], "/lights/" + key_of(scene_.lights[i].name, i));
+        check_light_groups();
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
@@ -109,7 +111,7 @@ private:
 
     void check_light(const Light& light, const std::string& place) {
         check_fields(light, place);
-        const bool oriented = light.kind == LightKind::directional || light.outer_angle < math::pi;
+        const bool oriented = light.kind == LightKind::directional || is_flat(light) || (!has_extent(light) && light.outer_angle < math::pi);
         if (is_finite(light.direction)) {
             const double l = length(light.direction);
             if (oriented && !(l > 0 && std::isfinite(l))) add(place + "/direction", "its length is " + number_text(l) + ": it points nowhere");
@@ -120,6 +122,41 @@ private:
         }
         if (light.falloff == Falloff::classic && light.constant == 0 && light.linear == 0 && light.quadratic == 0) {
             add(place + "/constant", "all terms of the classic falloff are 0");
+        }
+        if (has_extent(light)) check_extent(light, place);
+    }
+
+    void check_extent(const Light& light, const std::string& place) {
+        if (light.kind == LightKind::rectangle) {
+            positive(light.width, place + "/width"), positive(light.height, place + "/height");
+            const double up = length(light.up);
+            if (is_finite(light.up) && !(up > 0 && std::isfinite(up))) add(place + "/up", "its length is " + number_text(up) + ": it points nowhere");
+        } else {
+            positive(light.radius, place + "/radius");
+        }
+        const double area = visible_area(light);
+        if (std::isinf(area) || (area == 0 && light.radius > 0 && light.width > 0 && light.height > 0)) {
+            add(place, "its area cannot be computed: the lengths are too " + std::string(area == 0 ? "small" : "large"));
+        }
+        const auto only_points = [&](const char* field, bool has) {
+            if (has) add(place + "/" + field, "only lights without extent have one", "a light with extent shines evenly, and falls off with the square of the distance");
+        };
+        only_points("outer_angle", light.outer_angle < math::pi);
+        only_points("falloff", light.falloff != Falloff::inverse_square);
+        only_points("range", light.range > 0);
+    }
+
+    // Lights of one group are one: what is said of all must be the same.
+    void check_light_groups() {
+        std::unordered_map<std::string, const Light*> first;
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            const Light& light = scene_.lights[i];
+            if (light.group.empty() || !has_extent(light)) continue;
+            const Light& other = *first.emplace(light.group, &light).first->second;
+            const auto differ = [&](const char* field, bool a, bool b) {
+                if (a != b) add("/lights/" + key_of(light.name, i) + "/" + field, "differs from that of another light of the group \"" + light.group + "\"");
+            };
+            differ("shadows", light.shadows, other.shadows), differ("highlights", light.highlights, other.highlights);
         }
     }
 
