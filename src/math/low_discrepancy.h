@@ -35,13 +35,24 @@ constexpr std::array<std::uint32_t, 32> directions(int degree, std::uint32_t coe
     }
     return v;
 }
-inline constexpr std::array<std::array<std::uint32_t, 32>, 3> tables{directions(1, 0, {1, 0, 0}), directions(2, 1, {1, 3, 0}), directions(3, 1, {1, 3, 1})};
 
-constexpr std::uint32_t product(std::uint32_t index, const std::array<std::uint32_t, 32>& table) {
-    std::uint32_t x = 0;
-    for (int i = 0; index; ++i, index >>= 1) x ^= index & 1 ? table[i] : 0;
-    return x;
+// The points of a dimension, by the lower and by the upper byte of a place below 2^16: their exclusive or is the point.
+struct Points {
+    std::array<std::uint32_t, 256> lower{}, upper{};
+    constexpr std::uint32_t at(std::uint32_t place) const { return lower[place & 255] ^ upper[place >> 8]; }
+};
+constexpr Points points_of(const std::array<std::uint32_t, 32>& directions) {
+    Points points;
+    for (std::uint32_t byte = 0; byte < 256; ++byte) {
+        for (std::uint32_t bit = 0; bit < 8; ++bit) {
+            if (!(byte >> bit & 1)) continue;
+            points.lower[byte] ^= directions[bit], points.upper[byte] ^= directions[bit + 8];
+        }
+    }
+    return points;
 }
+inline constexpr Points second = points_of(directions(1, 0, {1, 0, 0})), third = points_of(directions(2, 1, {1, 3, 0})),
+                        fourth = points_of(directions(3, 1, {1, 3, 1}));
 
 // A permutation of 32-bit numbers in which each bit depends on the bits above it alone.
 constexpr std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
@@ -56,15 +67,14 @@ constexpr std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
 
 }  // namespace sobol
 
-// Four numbers of place `index` in the sequence that `key` names. Any 2^n places that follow a multiple of 2^n are spread evenly, in each number and in each
+// Four numbers of place `index`, below 2^16, in the sequence that `key` names. Any 2^n places that follow a multiple of 2^n are spread evenly, in each number and in each
 // two of them. Sequences of different keys have nothing to do with each other.
 constexpr std::array<double, 4> low_discrepancy(std::uint64_t key, std::uint32_t index) {
     const std::uint64_t seeds = mix_bits(key), more = mix_bits(seeds);
-    const std::uint32_t i = sobol::scrambled(index, static_cast<std::uint32_t>(seeds));  // the order is shuffled as well
+    const std::uint32_t i = sobol::scrambled(index, static_cast<std::uint32_t>(seeds)) & 0xffff;  // the order is shuffled as well
     const std::uint32_t scrambles[4] = {static_cast<std::uint32_t>(seeds >> 32), static_cast<std::uint32_t>(more), static_cast<std::uint32_t>(more >> 32),
                                         static_cast<std::uint32_t>(more >> 16)};
-    const std::uint32_t points[4] = {sobol::reversed(i), sobol::product(i, sobol::tables[0]), sobol::product(i, sobol::tables[1]),
-                                     sobol::product(i, sobol::tables[2])};
+    const std::uint32_t points[4] = {sobol::reversed(i), sobol::second.at(i), sobol::third.at(i), sobol::fourth.at(i)};
     std::array<double, 4> numbers{};
     for (int d = 0; d < 4; ++d) numbers[static_cast<std::size_t>(d)] = sobol::scrambled(points[d], scrambles[d]) * 0x1p-32;
     return numbers;

@@ -28,6 +28,9 @@ public:
     // A place of the viewer from which a camera ray comes to the point.
     Vec3 viewer_of(Vec3 point) const { return orthographic_ ? point - forward_ : position_; }
 
+    // Where the camera ray to the point starts.
+    Vec3 origin_towards(Vec3 point) const { return orthographic_ ? point - forward_ * dot(point - position_, forward_) : position_; }
+
     bool operator==(const CameraRays&) const = default;
     Vec3 position() const { return position_; }
     Vec3 forward() const { return forward_; }

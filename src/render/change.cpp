@@ -22,6 +22,7 @@ public:
             change_.sky = true;
             change_.all_lit = true;
         }
+        compare_samples(settings_before, now_.scene.settings);
         change_.lobes_only = change_.any_lobes && !change_.touches_more_than_lobes();
         for (std::size_t i = 0; i < change_.lobes.size(); ++i) {
             if (change_.lobes[i].light) change_.lobes_bits |= std::uint64_t{1} << i % 64;
@@ -40,6 +41,30 @@ private:
         change_.splitting = a.supersampling != b.supersampling || a.contrast != b.contrast;
         change_.stages = a.level != b.level || a.threshold != b.threshold || a.supersampling != b.supersampling;
         change_.anew = change_.anew || (absorbs && change_.frontier);
+    }
+
+    // Samples hold as long as nothing changed that a path may meet, but for the scales of groups of lights.
+    void compare_samples(const scene::Settings& a, const scene::Settings& b) {
+        const Emitters &x = before_.emitters, &y = now_.emitters;
+        if (b.level <= scene::Level::edges) return;
+        const bool same_number = x.groups() == y.groups();
+        bool same = same_number && change_.same_geometry && !change_.any_reassigned && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
+        for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
+        for (std::size_t i = 0; same && i < change_.lobes.size(); ++i) {
+            if (change_.lobes[i].light) same = same_but_for_emission(before_.lobes[i], now_.lobes[i]);
+        }
+        bool same_lights = before_.lights.size() == now_.lights.size();
+        for (std::size_t l = 0; same_lights && l < now_.lights.size(); ++l) {
+            if (now_.lights[l].has_extent()) same_lights = before_.lights[l].source() == now_.lights[l].source();
+            else same = same && change_.lights[l] == LightChange::none;
+        }
+        change_.resamples = !same;
+        if (!same_lights) change_.all_lit = change_.sky = true;  // rays see them
+        for (std::size_t g = 0; same_number && g < y.groups(); ++g) change_.all_lit = change_.all_lit || y.scale(g) != x.scale(g);
+    }
+    static bool same_but_for_emission(const Lobes& before, Lobes now) {
+        now.emission = before.emission;
+        return before == now;
     }
 
     void compare_lobes() {
@@ -202,7 +227,7 @@ LobesChange change_between(const Lobes& before, const Lobes& now) {
 }
 
 bool Change::touches_more_than_lobes() const {
-    return anew || !same_geometry || renumbered || light_went || light_came || all_lit || sky || frontier || splitting || stages ||
+    return anew || !same_geometry || renumbered || light_went || light_came || all_lit || sky || frontier || splitting || stages || resamples ||
            any_reassigned || lights_before != lights.size() || std::any_of(lights.begin(), lights.end(), [](LightChange l) { return l != LightChange::none; });
 }
 

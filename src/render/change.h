@@ -48,6 +48,8 @@ struct Change {
     std::vector<LightChange> lights;          // by light now
     std::size_t lights_before = 0;
 
+    bool resamples = false;  // what samples told of lights with extent and of light between surfaces does not hold
+
     bool sky = false;        // what rays see that leave the scene
     bool frontier = false;   // threshold or depth bound
     bool depth = false;      // depth bound

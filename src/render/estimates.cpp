@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/forest.h"
+#include "render/world.h"
 
 namespace crescente::render {
 namespace {

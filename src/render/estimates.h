@@ -2,15 +2,17 @@
 // sums, so that changing them asks for no sample.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "math/color.h"
-#include "render/world.h"
-#include "scene/settings.h"
 
 namespace crescente::render {
 
+using namespace math;
+
 struct Tile;
+struct World;
 
 // The light of one group at one node, from so many samples as Tile::samples says.
 struct Estimate {

@@ -114,6 +114,7 @@ struct Tile {
     bool unsettled = false;      // an edit touched the trees, and what is missing in them has not been looked for
     bool untried = false;        // with that: ways of lights to nodes are not known any more
     std::size_t forgotten = 0;   // times that a pixel's parts were given up: their roots are still among the nodes
+    bool resamples = false;      // with that: samples do not hold any more
     bool split_anew = false;     // with that: splits of pixels are not known any more, or asked for otherwise
 
     RayCounts rays;

@@ -39,13 +39,42 @@ Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) {
 
 constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
 
+// Light of the lights with extent that a ray passes; the camera does not see all of them.
+Rgb lights_on(const World& world, const Ray& ray, bool by_camera) {
+    Rgb sum;
+    if (world.emitters.groups() == 0) return sum;
+    std::vector<Emitted> met;
+    world.emitters.lights_on(ray, ray.origin, met);
+    for (const Emitted& light : met) {
+        if (light.visible || !by_camera) sum += light.radiance * world.emitters.scale(light.group);
+    }
+    return sum;
+}
+
+// That of the ray which ended on the node's surface.
+Rgb lights_before(const World& world, const Tile& tile, const Node& node) {
+    if (world.emitters.groups() == 0) return {};
+    const bool root = node.parent == no_node;
+    Ray ray;
+    ray.origin = root ? world.camera.origin_towards(node.position) : tile.nodes[node.parent].position;
+    const Vec3 way = node.position - ray.origin;
+    ray.t_max = length(way);
+    ray.direction = way / ray.t_max;
+    return lights_on(world, ray, root);
+}
+
 }  // namespace
 
 geometry::Ray camera_ray(const World& world, LatticePoint point) { return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step); }
 
-Rgb backdrop_at(const World& world, LatticePoint point) {
-    return backdrop_radiance(world.environment, 1 - point.y * pixels_per_step / world.camera.height());
+Rgb sky_seen(const World& world, LatticePoint point) {
+    const Ray ray = camera_ray(world, point);
+    const bool backdrop = world.environment.backdrop();
+    return lights_on(world, ray, true) + (backdrop ? backdrop_radiance(world.environment, 1 - point.y * pixels_per_step / world.camera.height())
+                                                   : environment_radiance(world.environment, ray.direction));
 }
+
+Rgb sky_seen(const World& world, const Ray& ray) { return lights_on(world, ray, false) + environment_radiance(world.environment, ray.direction); }
 
 std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first) {
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
@@ -79,10 +108,8 @@ std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<
     tile_.tests.shape_tests += counts.shape_tests;
     seeds_.assign(points.size(), {});
     append();
-    if (world_.environment.backdrop()) {
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!hits_[i].found()) tile_.nodes[first + i].local = backdrop_at(world_, points[i]);
-        }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!hits_[i].found()) tile_.nodes[first + i].local = sky_seen(world_, points[i]);
     }
     return first;
 }
@@ -108,7 +135,7 @@ void Growth::append() {
             if (!(found >> i & 1)) {
                 node.position = rays_[block + i].direction;
                 node.shadowed = true;
-                node.local = environment_radiance(world_.environment, node.position);
+                if (node.parent != no_node) node.local = sky_seen(world_, rays_[block + i]);
                 continue;
             }
             node.position = lane(at.position, i);
@@ -199,7 +226,7 @@ void Growth::begin_light(PointLanes& p, bool shadows) {
         }
         if (node.sampled) p.sampled |= 1u << i;
         const Rgb around = node.sampled ? sampled_radiance(world_, tile_, p.node[i]) : reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
-        const Rgb sum = lobes.emission + around;
+        const Rgb sum = lobes.emission + around + lights_before(world_, tile_, node);
         p.sum[0][i] = sum.r, p.sum[1][i] = sum.g, p.sum[2][i] = sum.b;
         node.shadowed = node.shadowed || shadows;
     }

@@ -110,7 +110,8 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             const Hit& hit = hits_[block + i];
             meet_lights(path, ray, hit);
             if (!hit.found()) continue;
-            const Lobes& lobes = world_.lobes[at.material[i]];
+            const bool blurs = path.scattered && !world_.blurred_lobes.empty();
+            const Lobes& lobes = (blurs ? world_.blurred_lobes : world_.lobes)[at.material[i]];
             Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes};
             if (vertex.facing.inside && !is_black(lobes.attenuation)) {
                 const Rgb rest = absorbed(lobes, hit.t);

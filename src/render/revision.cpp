@@ -19,6 +19,20 @@ int all_roots(const scene::Settings& settings) { return stages_to_all_roots(sett
 
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
+// Takes the light of samples out of the nodes, which are to be lit again. What the samples told is kept.
+void show_without_samples(Tile& tile) {
+    for (Node& node : tile.nodes) {
+        if (!node.sampled) continue;
+        node.sampled = node.samples_reflection = node.samples_refraction = false;
+        node.shadowed = false;
+    }
+}
+
+void forget_samples(Tile& tile) {
+    show_without_samples(tile);
+    release(tile.samples), release(tile.estimates);
+}
+
 class Reviser {
 public:
     Reviser(Tile& tile, const World& before, const World& now, const Change& change, bool watched)
@@ -27,6 +41,7 @@ public:
     void run() {
         const std::size_t count = tile_.nodes.size();
         lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
+        if (change_.resamples && !tile_.samples.empty()) take_samples_back();
         const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
         constexpr std::size_t few = 32;
         const bool untidy = tile_.forgotten * few > count;
@@ -57,6 +72,14 @@ public:
     }
 
 private:
+    // What the samples told does not hold any more. Until the tile is settled its picture is still made of them, unless they are of other groups of lights.
+    void take_samples_back() {
+        touched_ = tile_.resamples = true;
+        if (estimate_groups(before_) == estimate_groups(now_)) return;
+        if (watched_ && !tile_.unsettled) tile_.pixels = develop(tile_);
+        forget_samples(tile_);
+    }
+
     // Which point of the picture each root belongs to; the others no longer belong to any.
     void place_roots() {
         place_.assign(tile_.nodes.size(), nowhere);
@@ -132,8 +155,7 @@ private:
     }
     void update_sky(Node& node, LatticePoint at) {
         const Rgb was = node.local;
-        const bool backdrop = node.parent == no_node && now_.environment.backdrop();
-        node.local = backdrop ? backdrop_at(now_, at) : environment_radiance(now_.environment, node.position);
+        node.local = node.parent == no_node ? sky_seen(now_, at) : sky_seen(now_, {tile_.nodes[node.parent].position, node.position});
         if (node.local != was) touched_ = true;
     }
     void relight(Node& node) {
@@ -271,15 +293,20 @@ private:
             if (!lost_[i]) index[i] = count++;
         }
         const auto now_at = [&](std::uint32_t i) { return i == no_node ? no_node : index[i]; };
-        const std::size_t lights = now_.lights.size();
+        const std::size_t lights = now_.lights.size(), groups = tile_.samples.empty() ? 0 : estimate_groups(now_);
         tile_.shares.resize(tile_.nodes.size() * lights, Share::untried);
+        if (groups > 0) tile_.samples.resize(tile_.nodes.size()), tile_.estimates.resize(tile_.nodes.size() * groups);
         for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
             const std::uint32_t to = index[i];
             if (to == no_node) continue;
             Node& node = tile_.nodes[to] = tile_.nodes[i];
             node.parent = now_at(node.parent), node.reflected = now_at(node.reflected), node.refracted = now_at(node.refracted);
             std::copy_n(tile_.shares.begin() + static_cast<std::ptrdiff_t>(i * lights), lights, tile_.shares.begin() + static_cast<std::ptrdiff_t>(to * lights));
+            if (groups == 0) continue;
+            tile_.samples[to] = tile_.samples[i];
+            std::copy_n(tile_.estimates.begin() + static_cast<std::ptrdiff_t>(i * groups), groups, tile_.estimates.begin() + static_cast<std::ptrdiff_t>(to * groups));
         }
+        if (groups > 0) tile_.samples.resize(count), tile_.estimates.resize(count * groups);
         tile_.nodes.resize(count);
         tile_.shares.resize(count * lights);
         std::unordered_map<std::uint64_t, Rgb> filtered;
@@ -355,7 +382,7 @@ void light_again(Tile& tile, const World& world) {
 void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched) {
     if (!change.touches_trees()) return;
     if (change.anew || tile.nodes.empty()) return begin_anew(tile);
-    if (change.lobes_only && !(change.lobes_bits & tile.materials)) return;
+    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !(change.resamples && !tile.samples.empty())) return;
     Reviser(tile, before, now, change, watched).run();
 }
 
@@ -364,7 +391,11 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const scene::Settings& settings = world.scene.settings;
     const auto first_of = [&](scene::Level level) { return first_stage(level_of_stage, level); };
     const int shadows = first_of(scene::Level::shadows), reflections = first_of(scene::Level::reflections), edges = first_of(scene::Level::edges);
-    const bool untried = std::exchange(tile.untried, false);
+    const bool untried = std::exchange(tile.untried, false), resamples = std::exchange(tile.resamples, false);
+    const bool sampled = !tile.samples.empty();
+    // The stages go on from a picture without samples, as they did at first; those that still hold come back with the first round.
+    if (resamples) forget_samples(tile);
+    else if (sampled) show_without_samples(tile);
     const auto is_missing = [](std::uint32_t root) { return root == no_node; };
     const auto shows = [&](const Pending& p) { return p.influence > settings.threshold; };
 
@@ -387,7 +418,11 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
     tile.stage = std::min({tile.stage, stage, edges});
     if (tile.stage == static_cast<int>(level_of_stage.size())) release(tile.pixels), tile.pixels_stage = -1;
-    if (tile.previewed_until > 0) tile.previewed_until = stage <= shadows ? shadows + 1 : stage == reflections ? edges : 0;
+    const bool watched = tile.previewed_until > 0;
+    if (watched) tile.previewed_until = stage <= shadows ? shadows + 1 : stage == reflections ? edges : 0;
+    // Stale light is better than none, and than very noisy light.
+    const int first_round = edges + (settings.supersampling > 0 ? settings.supersampling : 0);
+    if (sampled && watched) tile.previewed_until = std::min(first_round + (resamples ? 2 : 1), static_cast<int>(level_of_stage.size()));
 }
 
 }  // namespace crescente::render

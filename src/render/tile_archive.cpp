@@ -93,7 +93,7 @@ void columns(Archive& a, Tile& tile) {
     // are not written: a session that goes on shows what the trees say.
     [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
                             cursor, todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
-                            unsettled, untried, forgotten, split_anew, ray_counts, test_counts] = tile;
+                            unsettled, untried, forgotten, resamples, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
     map(a, filtered, [&](std::uint64_t key) { return key < tile.shares.size(); });
@@ -107,7 +107,7 @@ void columns(Archive& a, Tile& tile) {
     array(a, todo);
     array(a, pixels);
     value(a, pixels_stage);
-    value(a, going_on), value(a, lit), value(a, untried), value(a, split_anew);
+    value(a, going_on), value(a, lit), value(a, untried), value(a, resamples), value(a, split_anew);
     value(a, forgotten);
     counts(a, ray_counts), counts(a, test_counts);
 }

@@ -5,6 +5,14 @@
 namespace crescente::render {
 namespace {
 
+// Such that it throws no sharp light on others, but as much (regularisation of paths; Kaplanyan and Dachsbacher 2013).
+scene::Material blurred(scene::Material material) {
+    constexpr double least_roughness = 0.55;
+    auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
+    if (m && m->transmission == 0) m->roughness = std::max(m->roughness, least_roughness);
+    return material;
+}
+
 // All but the accelerator.
 void derive(World& world) {
     const scene::Scene& s = world.scene;
@@ -37,6 +45,10 @@ void derive(World& world) {
     for (const scene::Light& light : s.lights) world.lights.emplace_back(light);
     if (s.environment) world.environment = Environment(*s.environment);
     world.camera_media = media_around_camera(world);
+    if (s.settings.level > scene::Level::edges && !s.settings.caustics) {
+        for (const scene::Material& material : s.materials) world.blurred_lobes.push_back(compile(blurred(material)));
+        world.blurred_lobes.push_back(world.lobes.back());
+    }
     if (s.settings.level > scene::Level::edges) world.emitters = Emitters(world);
 }
 
@@ -54,7 +66,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
 
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}});
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}});
     derive(*world);
     return world;
 }

@@ -27,6 +27,7 @@ struct World {
     std::vector<std::uint32_t> slots;             // index into lobes
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
     std::vector<Lobes> lobes;                     // one for each material of the scene, and a default one at the end
+    std::vector<Lobes> blurred_lobes;             // the same for light that diffuse surfaces scattered before; empty: no other
     std::vector<Light> lights;
     Environment environment;
     CameraRays camera;
