@@ -40,6 +40,7 @@ private:
         change_.depth = a.depth != b.depth;
         change_.splitting = a.supersampling != b.supersampling || a.contrast != b.contrast;
         change_.stages = a.level != b.level || a.threshold != b.threshold || a.supersampling != b.supersampling;
+        if (b.level > scene::Level::edges) change_.stages = change_.stages || a.samples != b.samples || a.noise != b.noise || a.exposure != b.exposure;
         change_.anew = change_.anew || (absorbs && change_.frontier);
     }
 

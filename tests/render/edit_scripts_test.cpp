@@ -28,6 +28,7 @@ public:
                 if (s.lights.size() > 5) return scene::RemoveLight{static_cast<std::uint32_t>(random_.below(s.lights.size()))};
                 scene::Light l;
                 l.position = random_.in_cube(5), l.falloff = scene::Falloff::none, l.color = color();
+                l.kind = static_cast<scene::LightKind>(random_.below(5)), l.two_sided = random_.chance(0.3);
                 return scene::InsertLight{static_cast<std::uint32_t>(random_.below(s.lights.size() + 1)), l};
             }
             case 4:
@@ -106,11 +107,12 @@ private:
         if (s.lights.empty()) return scene::InsertLight{0, {}};
         const auto i = static_cast<std::uint32_t>(random_.below(s.lights.size()));
         scene::Light l = s.lights[i];
-        switch (random_.below(5)) {
+        switch (random_.below(6)) {
             case 0: l.position = l.position + random_.in_cube(1); break;
             case 1: l.color = random_.chance(0.2) ? Rgb{} : color(); break;
             case 2: l.outer_angle = random_.uniform(0.3, math::pi), l.inner_angle = l.outer_angle * random_.uniform(0, 1), l.direction = random_.direction(); break;
             case 3: l.shadows = !l.shadows; break;
+            case 4: l.intensity = random_.uniform(0, 5), l.radius = random_.chance(0.5) ? 0.5 : 0.2; break;
             default: l.highlights = !l.highlights, l.range = random_.chance(0.5) ? 0 : random_.uniform(2, 9); break;
         }
         return scene::SetLight{i, l};
@@ -134,14 +136,15 @@ private:
     }
     Edit settings(const Scene& s) {
         scene::Settings t = s.settings;
-        switch (random_.below(8)) {
+        switch (random_.below(9)) {
             case 0: t.threshold = random_.chance(0.5) ? 1.0 / 256 : random_.uniform(0.004, 0.3); break;
             case 1: t.depth = static_cast<int>(random_.below(7)); break;
             case 2: t.supersampling = static_cast<int>(random_.below(3)); break;
             case 3: t.contrast = random_.uniform(0.02, 0.3); break;
-            case 4: t.level = static_cast<scene::Level>(random_.below(4)); break;
+            case 4: t.level = static_cast<scene::Level>(random_.below(6)); break;
             case 5: t.threads = 1 + static_cast<int>(random_.below(3)); break;
             case 6: t.accelerator = static_cast<scene::AcceleratorKind>(random_.below(2)); break;
+            case 7: t.samples = 1 + static_cast<int>(random_.below(40)), t.noise = random_.uniform(0.02, 0.5), t.exposure = random_.uniform(-2, 2); break;
             default: t.width = 30 + static_cast<int>(random_.below(50)), t.tile = 16 + static_cast<int>(random_.below(20)); break;
         }
         return scene::SetSettings{t};
@@ -165,6 +168,8 @@ Scene start(std::uint64_t seed) {
     if (seed % 5 == 1) scene.settings.memory = random.chance(0.5) ? 1 : 200'000;
     if (seed % 7 == 3) scene.settings.keep = false;
     if (seed % 4 == 2) scene.settings.level = static_cast<scene::Level>(random.below(4));
+    if (seed % 4 == 3) scene.settings.level = random.chance(0.5) ? scene::Level::soft : scene::Level::indirect;
+    scene.settings.samples = 1 + static_cast<int>(random.below(40)), scene.settings.noise = random.uniform(0.02, 0.5);
     for (scene::Material& m : scene.materials) {  // bodies that absorb begin anew at most edits: not in every script
         if (auto* classic = std::get_if<ClassicMaterial>(&m.model); classic && seed % 6 != 0) classic->attenuation = {};
     }
