@@ -83,7 +83,7 @@ private:
         const Lobes* lobes[lane_count];
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
-        unsigned layered;             // of those, lanes with light below their layer
+        unsigned layered;             // of those, lanes that ask for layer_at of the light
         FloatLanes sum[3];            // radiance so far, by channel
         // Of the current light:
         Reach<Lanes> reach;
