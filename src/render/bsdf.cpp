@@ -6,17 +6,14 @@
 namespace crescente::render {
 namespace {
 
-constexpr float smoothest = 0.002f;  // alpha that compile() gives to whatever is smoother: such lobes are mirrors
-constexpr double bends = 1e-3;       // of the index: below, light goes straight through even a rough surface
+constexpr double bends = 1e-3;  // of the index: below, light goes straight through even a rough surface
 
 double mean(Rgb c) { return (double(c.r) + c.g + c.b) / 3; }
-
-bool transmits(const Lobes& lobes) { return lobes.layered() && lobes.fresnel == Fresnel::dielectric; }
 
 double power(double base, double exponent) { return exponent == 0 ? 1 : std::pow(std::max(0.0, base), exponent); }
 
 // The lobes that a direction is drawn from, in the order in which the first number chooses.
-enum Lobe : std::uint8_t { diffuse, rough, highlight, mirror, refraction, straight, lobe_count };
+enum Lobe : std::uint8_t { diffuse, rough, multiple, glass_multiple, through, highlight, mirror, refraction, straight, lobe_count };
 
 class Scattering {
 public:
@@ -36,17 +33,20 @@ private:
     Vec3 world(Vec3 w) const { return t_ * w.x + b_ * w.y + facing_.shading * w.z; }
     bool allows(Vec3 to_light, bool crosses) const { return (dot(facing_.shading, to_light) < 0) == crosses && (dot(facing_.geometric, to_light) < 0) == crosses; }
     double layer_over_diffuse(double cosine) const;
+    double missing_in_glass(double cosine, std::size_t side) const;
     std::optional<Vec3> draw(Lobe lobe, std::array<double, 3> u) const;
     std::optional<ScatterSample> ray(Lobe lobe) const;
     void add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const;
     void add_facets(Vec3 l, Scattered& sum) const;
+    void add_multiple(double cosine, Scattered& sum) const;
     void add_highlight(Vec3 l, Scattered& sum) const;
     double highlight_scale() const;
 
     const Lobes& lobes_;
     const Facing& facing_;
     Vec3 viewer_, t_, b_, v_;
-    double eta_;  // index behind over index in front
+    double eta_;        // index behind over index in front
+    std::size_t side_;  // of a glass: that of the viewer, outer or inner
     Smooth smooth_;
     ChildWeights rays_;
     Microfacets facets_;
@@ -54,7 +54,7 @@ private:
 };
 
 Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, bool with_smooth)
-    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), smooth_(smooth_lobes(lobes)), facets_{lobes.alpha, lobes.alpha} {
+    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), side_(facing.inside), smooth_(smooth_lobes(lobes)), facets_{lobes.alpha, lobes.alpha} {
     const Vec3 along = facing.tangent - facing.shading * dot(facing.tangent, facing.shading);
     const double size = length(along);
     t_ = size > 1e-9 ? along / size : perpendicular(facing.shading);
@@ -67,12 +67,17 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
     double weights[lobe_count] = {};
     weights[diffuse] = mean(lobes.ambient_diffuse) * (lobes.layered() ? 1 - layer_over_diffuse(v_.z) : 1);
     if (lobes.layered() && !smooth_.reflects) {
-        if (transmits(lobes)) {
-            const FacetColors f = facet(v_.z);
-            weights[rough] = mean(f.reflected) + mean(f.transmitted);
-        } else {
-            const SplitSum sum = split_sum(lobes.sums, v_.z);
-            weights[rough] = mean(lobes.highlight) * sum.scale + double(lobes.coverage) * sum.bias;
+        const SplitSum sum = split_sum(lobes.sums, v_.z);
+        weights[multiple] = mean(lobes.multiple) * sum.missing();
+        weights[rough] = mean(lobes.highlight) * sum.scale + double(lobes.coverage) * sum.bias;
+    }
+    if (lobes.transmits() && !smooth_.reflects) {
+        const FacetColors f = facet(v_.z);
+        weights[rough] = mean(f.reflected) + mean(f.transmitted);
+        if (!smooth_.refracts) {
+            const double missing = missing_in_glass(v_.z, side_), crosses = lobes.glass.through[side_];
+            weights[glass_multiple] = mean(lobes.mirror) * missing * (1 - crosses);
+            weights[through] = mean(lobes.refraction) * missing * crosses;
         }
     }
     if (!lobes.layered() && lobes.highlight_lobe != HighlightLobe::none) {
@@ -88,7 +93,7 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
 Scattering::FacetColors Scattering::facet(double cosine) const {
     const auto grazing = static_cast<float>(fifth_power(1 - cosine));
     FacetColors f;
-    if (transmits(lobes_)) {
+    if (lobes_.transmits()) {
         const double fresnel = fresnel_dielectric(cosine, eta_);
         f.reflected = lobes_.mirror * static_cast<float>(fresnel) + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing;
         if (!smooth_.refracts) f.transmitted = lobes_.refraction * static_cast<float>(1 - fresnel);
@@ -103,8 +108,14 @@ Scattering::FacetColors Scattering::facet(double cosine) const {
 // What of the light at this cosine does not reach the diffuse lobe, since it is reflected before.
 double Scattering::layer_over_diffuse(double cosine) const {
     if (is_black(lobes_.diffuse)) return 0;
-    cosine = std::clamp(cosine, 1e-4, 1.0);
-    return facing_.inside && transmits(lobes_) ? fresnel_dielectric(cosine, eta_) : layer_reflectance(lobes_, cosine);
+    if (!lobes_.transmits()) return layer_at(lobes_, std::clamp(cosine, 1e-4, 1.0)).kept;
+    if (smooth_.refracts) return fresnel_dielectric(std::min(cosine, 1.0), eta_);
+    return split_sum(lobes_.glass.sums[side_], cosine).scale + missing_in_glass(cosine, side_) * (1 - lobes_.glass.through[side_]);
+}
+
+double Scattering::missing_in_glass(double cosine, std::size_t side) const {
+    if (lobes_.glass.density[side] == 0) return 0;
+    return split_sum(lobes_.glass.sums[side], cosine).missing();
 }
 
 // Classic strengths are meant for sharp highlights: a broad one is kept from giving back more than its strength.
@@ -121,6 +132,7 @@ Scattered Scattering::toward(Vec3 to_light) const {
     const Vec3 l = local(to_light);
     if (!crosses) add_diffuse(l, to_light, sum), add_highlight(l, sum);
     add_facets(l, sum);
+    add_multiple(l.z, sum);
     return sum;
 }
 
@@ -133,8 +145,8 @@ void Scattering::add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const {
     }
     double radiance[3];
     PhysicalView<double> view = physical_view(lobes_, v_.z);
-    view.layer_kept = layer_over_diffuse(v_.z);
-    reflect_physical(view, l.z, dot(viewer_, to_light), layer_over_diffuse(l.z), false, radiance);
+    view.layer.kept = layer_over_diffuse(v_.z);
+    reflect_physical(view, l.z, dot(viewer_, to_light), LayerAt<double>{layer_over_diffuse(l.z), 0}, false, radiance);
     sum.diffuse = {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
 }
 
@@ -147,7 +159,7 @@ void Scattering::add_facets(Vec3 l, Scattered& sum) const {
         const FacetColors f = facet(v_h);
         sum.glossy += f.reflected * static_cast<float>(facets_.density(h) * facets_.seen_by_both(v_, l) / (4 * v_.z));
         sum.pdf += chances_[rough] * f.chance_reflected * facets_.density_seen(v_, h) / (4 * v_h);
-    } else if (transmits(lobes_) && !smooth_.refracts && lobes_.refracts()) {
+    } else if (lobes_.transmits() && !smooth_.refracts && lobes_.refracts()) {
         // Walter et al. 2007, section 5.3; the factor of the square of the index is left out.
         Vec3 h = normalize(v_ + l * eta_);
         if (h.z < 0) h = -h;
@@ -157,6 +169,25 @@ void Scattering::add_facets(Vec3 l, Scattered& sum) const {
         const double root = v_h + eta_ * l_h, widening = eta_ * eta_ * -l_h / (root * root);
         sum.glossy += f.transmitted * static_cast<float>(facets_.density(h) * facets_.seen_by_both(v_, l) * v_h * widening / v_.z);
         sum.pdf += chances_[rough] * (1 - f.chance_reflected) * facets_.density_seen(v_, h) * widening;
+    }
+}
+
+void Scattering::add_multiple(double cosine, Scattered& sum) const {
+    const RoughGlass& glass = lobes_.glass;
+    if (cosine > 0 && chances_[multiple] > 0) {
+        sum.glossy += lobes_.multiple * static_cast<float>(layer_at(lobes_, v_.z).missing * layer_at(lobes_, cosine).missing * lobes_.multiple_density * cosine);
+        sum.pdf += chances_[multiple] * density_of_cosine(lobes_.multiple_cells, cosine);
+    }
+    if (cosine > 0 && chances_[glass_multiple] > 0) {
+        const double stays = missing_in_glass(v_.z, side_) * missing_in_glass(cosine, side_) * glass.density[side_] * (1 - glass.through[side_]);
+        sum.glossy += lobes_.mirror * static_cast<float>(stays * cosine);
+        sum.pdf += chances_[glass_multiple] * density_of_cosine(glass.cells[side_], cosine);
+    }
+    if (cosine < 0 && chances_[through] > 0) {
+        const std::size_t other = 1 - side_;
+        const double crosses = missing_in_glass(v_.z, side_) * missing_in_glass(-cosine, other) * glass.density[other] * glass.through[side_];
+        sum.glossy += lobes_.refraction * static_cast<float>(crosses * -cosine);
+        sum.pdf += chances_[through] * density_of_cosine(glass.cells[other], -cosine);
     }
 }
 
@@ -185,20 +216,26 @@ std::optional<Vec3> Scattering::draw(Lobe lobe, std::array<double, 3> u) const {
         return Vec3{r * std::cos(phi), r * std::sin(phi), z};
     };
     const auto mirrored_in = [this](Vec3 h) { return h * (2 * dot(v_, h)) - v_; };
+    const auto above = [](Vec3 l) { return l.z > 0 ? std::optional(l) : std::nullopt; };
     if (lobe == diffuse) return about_z(std::sqrt(1 - u[2]));
+    if (lobe == multiple) return about_z(draw_cosine(lobes_.multiple_cells, u[2]));
+    if (lobe == glass_multiple) return about_z(draw_cosine(lobes_.glass.cells[side_], u[2]));
+    if (lobe == through) return -about_z(draw_cosine(lobes_.glass.cells[1 - side_], u[2]));
     if (lobe == highlight) {
         const Vec3 drawn = about_z(std::pow(1 - u[2], 1.0 / (lobes_.exponent + 1)));
-        if (lobes_.highlight_lobe == HighlightLobe::blinn) return dot(v_, drawn) > 0 ? std::optional(mirrored_in(drawn)) : std::nullopt;
+        if (lobes_.highlight_lobe == HighlightLobe::blinn) return dot(v_, drawn) > 0 ? above(mirrored_in(drawn)) : std::nullopt;
         const Vec3 axis{-v_.x, -v_.y, v_.z}, across = perpendicular(axis);
-        return across * drawn.x + cross(axis, across) * drawn.y + axis * drawn.z;
+        return above(across * drawn.x + cross(axis, across) * drawn.y + axis * drawn.z);
     }
     const Vec3 h = facets_.sample_seen(v_, u[1], u[2]);
     const double v_h = std::clamp(dot(v_, h), 0.0, 1.0);
     if (v_h == 0) return std::nullopt;
-    if (u[0] < facet(v_h).chance_reflected) return mirrored_in(h);
+    // What ends on the other side than it should meets another facet: lost here, and given back by the lobes of multiple scattering.
+    if (u[0] < facet(v_h).chance_reflected) return above(mirrored_in(h));
     const double sin2 = (1 - v_h * v_h) / (eta_ * eta_);
     if (sin2 >= 1) return std::nullopt;
-    return h * (v_h / eta_ - std::sqrt(1 - sin2)) - v_ / eta_;
+    const Vec3 l = h * (v_h / eta_ - std::sqrt(1 - sin2)) - v_ / eta_;
+    return l.z < 0 ? std::optional(l) : std::nullopt;
 }
 
 std::optional<ScatterSample> Scattering::ray(Lobe lobe) const {
@@ -235,14 +272,14 @@ std::optional<ScatterSample> Scattering::sample(std::array<double, 3> u) const {
 
 Smooth smooth_lobes(const Lobes& lobes) {
     if (!lobes.layered()) return {true, true};
-    const bool smooth = lobes.alpha <= smoothest;
-    return {smooth, smooth || !transmits(lobes) || std::abs(lobes.ior - 1) < bends};
+    const bool smooth = lobes.smooth();
+    return {smooth, smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < bends};
 }
 
 ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside) {
     if (!lobes.layered()) return child_weights(lobes, cosine, inside);
     const Smooth smooth = smooth_lobes(lobes);
-    if (transmits(lobes)) {
+    if (lobes.transmits()) {
         const ChildWeights all = child_weights(lobes, cosine, inside);
         return {smooth.reflects ? all.reflected : Rgb{}, smooth.refracts ? all.refracted : Rgb{}};
     }

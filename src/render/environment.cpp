@@ -59,6 +59,7 @@ Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3
         // The layer lets in what neither the mirrored ray nor the blurred reflection takes.
         const float mirrored_share = layer_mirrors(lobes, cosine, inside) * lobes.mirror_share;
         result *= gray(1 - mirrored_share - (lobes.layer_f0 * sum.scale + sum.bias) * blurred);
+        result += lobes.multiple * irradiance * (static_cast<float>(sum.missing()) * blurred);
         if (blurred > 0 && !is_black(lobes.ambient_specular)) {
             const Rgb reflectance = lobes.ambient_specular * sum.scale + gray(lobes.coverage * sum.bias);
             const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;

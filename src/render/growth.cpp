@@ -222,7 +222,7 @@ void Growth::begin_light(PointLanes& p, bool shadows) {
             p.physical |= 1u << i;
             const PhysicalView<double> view = physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i)));
             set_lane(p.view, i, view);
-            if (view.layer_kept > 0) p.layered |= 1u << i;
+            if (asks_for_layer(lobes)) p.layered |= 1u << i;
         }
         if (node.sampled) p.sampled |= 1u << i;
         const Rgb around = node.sampled ? sampled_radiance(world_, tile_, p.node[i]) : reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
@@ -275,9 +275,8 @@ void Growth::add_light(PointLanes& p, std::size_t l) const {
     if (!p.lit) return;
     Lanes radiance[3]{};
     if (const unsigned physical = p.lit & p.physical) {
-        const unsigned layered = physical & p.layered;
-        const Lanes layer_kept = layered ? blend(layered, layer_reflectance(p.lobes, layered, p.view.layer_f0, p.cosine), Lanes{}) : Lanes{};
-        reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer_kept, light.makes_highlights(), radiance);
+        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.view.layer_f0, p.cosine);
+        reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer, light.makes_highlights(), radiance);
     }
     for (unsigned rest = p.lit & ~p.physical; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);

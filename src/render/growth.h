@@ -84,8 +84,8 @@ private:
         const Lobes* lobes[lane_count];
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
-        unsigned layered;             // of those, lanes with light below their layer
         unsigned sampled;             // lanes that take the light of lights with extent from their samples
+        unsigned layered;             // of those, lanes that ask for layer_at of the light
         FloatLanes sum[3];            // radiance so far, by channel
         // Of the current light:
         Reach<Lanes> reach;

@@ -1,5 +1,7 @@
 #include "render/lobes.h"
 
+#include <map>
+
 #include "render/physical_view.h"
 
 namespace crescente::render {
@@ -33,7 +35,41 @@ Lobes compile_classic(const scene::ClassicMaterial& m) {
     return lobes;
 }
 
-Lobes compile_physical(const scene::PhysicalMaterial& m) {
+// Share of the light missing from a rough metal's sums that comes back after two or more reflections between its facets (Kulla and Conty 2017, "Revisiting Physically
+// Based Shading at Imageworks"), f0 rising to 1 by Schlick. kept: mean_of_sums.
+Rgb multiple_reflection(Rgb f0, double kept) {
+    const auto channel = [kept](double f) {
+        const double mean = (20 * f + 1) / 21;
+        return static_cast<float>(mean * mean * kept / (1 - mean * (1 - kept)));
+    };
+    return {channel(f0.r), channel(f0.g), channel(f0.b)};
+}
+
+constexpr double least_missing = 1e-6;  // of a lobe's light, to be asked where it is; beyond rounding
+
+RoughGlass rough_glass(double alpha, double ior) {
+    RoughGlass glass;
+    std::array<double, 2> lost, crossing;  // means over all light; crossing: of what is not lost at once, times the square of the index, which must be that of the other side
+    for (std::size_t side = 0; side < 2; ++side) {
+        glass.sums[side] = glass_sums(alpha, side == 0 ? ior : 1 / ior);
+        const double kept = mean_of_sums(glass.sums[side]), index = side == 0 ? 1 : ior;
+        lost[side] = index * index * (1 - kept);
+        crossing[side] = lost[side] * mean_of_sums(glass.sums[side], 0, 1) / kept;
+        glass.density[side] = static_cast<float>(1 / (pi * (1 - kept)));
+        glass.cells[side] = missing_cells(glass.sums[side]);
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (1 - mean_of_sums(glass.sums[side]) < least_missing) {
+            glass.density = {};
+            return glass;
+        }
+    }
+    // As much must cross in one direction as in the other (reciprocity).
+    for (std::size_t side = 0; side < 2; ++side) glass.through[side] = static_cast<float>(std::min(crossing[0], crossing[1]) / lost[side]);
+    return glass;
+}
+
+Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSums>& known_sums) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
     const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
     const double r0 = (m.ior - 1) / (m.ior + 1);
@@ -47,10 +83,18 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
     lobes.layer_f0 = static_cast<float>(r0 * r0);
     const Rgb f0 = mix(gray(lobes.layer_f0), m.base_color, metallic) * opacity;
     lobes.roughness = static_cast<float>(m.roughness);
-    lobes.alpha = std::max(0.002f, lobes.roughness * lobes.roughness);
-    lobes.sums = split_sums(lobes.alpha);
+    lobes.alpha = std::max(smoothest_alpha, lobes.roughness * lobes.roughness);
+    const auto [sums, unknown] = known_sums.try_emplace(lobes.alpha);
+    if (unknown) sums->second = lobes.smooth() ? smooth_split_sums() : split_sums(lobes.alpha);
+    lobes.sums = sums->second;
     lobes.highlight = f0;
     lobes.highlight_lobe = HighlightLobe::ggx;
+    const double kept = mean_of_sums(lobes.sums);
+    if (metallic > 0 && 1 - kept > least_missing) {
+        lobes.multiple = multiple_reflection(m.base_color, kept) * (metallic * opacity);
+        lobes.multiple_density = static_cast<float>(1 / (pi * (1 - kept)));
+        lobes.multiple_cells = missing_cells(lobes.sums);
+    }
     if (transmission > 0) {
         lobes.fresnel = Fresnel::dielectric;
         lobes.mirror = gray(dielectric * opacity);
@@ -61,6 +105,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
         lobes.straight = gray(1 - opacity);
         lobes.ior = m.ior;
         lobes.attenuation = m.attenuation;
+        if (!lobes.smooth()) lobes.glass = rough_glass(lobes.alpha, m.ior);
     } else {
         lobes.fresnel = Fresnel::schlick;
         lobes.mirror_share = mirror_share_of(m.roughness);
@@ -74,20 +119,24 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
     return lobes;
 }
 
-// Schlick's approximation of Fresnel's equations (1994), from f0 to f90.
-Rgb schlick(Rgb f0, float f90, double cosine) { return f0 + (gray(f90) - f0) * static_cast<float>(fifth_power(1 - cosine)); }
-
 }  // namespace
 
-Lobes compile(const scene::Material& material) {
-    if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
-    return compile_physical(std::get<scene::PhysicalMaterial>(material.model));
+std::vector<Lobes> compile(std::span<const scene::Material> materials) {
+    std::map<float, SplitSums> known_sums;  // by alpha: many materials have the same
+    std::vector<Lobes> all;
+    for (const scene::Material& material : materials) {
+        const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model);
+        all.push_back(classic ? compile_classic(*classic) : compile_physical(std::get<scene::PhysicalMaterial>(material.model), known_sums));
+    }
+    return all;
 }
+
+Lobes compile(const scene::Material& material) { return compile(std::span(&material, 1)).front(); }
 
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
     if (lobes.layered()) {
         double radiance[3];
-        reflect_physical(physical_view(lobes, dot(normal, to_viewer)), cosine, dot(to_viewer, to_light), layer_reflectance(lobes, cosine), with_highlight, radiance);
+        reflect_physical(physical_view(lobes, dot(normal, to_viewer)), cosine, dot(to_viewer, to_light), layer_at(lobes, cosine), with_highlight, radiance);
         return {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
     }
     Rgb result = lobes.diffuse * static_cast<float>(cosine);
@@ -99,15 +148,6 @@ Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light
     }
     const double n_h = std::max(0.0, dot(normal, normalize(to_light + to_viewer)));
     return result + lobes.highlight * std::pow(static_cast<float>(n_h), lobes.exponent);
-}
-
-double fresnel_dielectric(double cosine, double eta) {
-    const double sin2 = (1 - cosine * cosine) / (eta * eta);
-    if (sin2 >= 1) return 1;
-    const double transmitted = std::sqrt(1 - sin2);
-    const double parallel = (eta * cosine - transmitted) / (eta * cosine + transmitted);
-    const double perpendicular = (cosine - eta * transmitted) / (cosine + eta * transmitted);
-    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {

@@ -1,10 +1,14 @@
 // Materials compiled to what the tracer knows: lobes, each with an RGB weight.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "math/color.h"
 #include "math/vec.h"
+#include "render/fresnel.h"
 #include "render/split_sum.h"
 #include "scene/material.h"
 
@@ -19,6 +23,19 @@ enum class Fresnel : std::uint8_t {
     schlick,     // mirror weight is f0 rising to 1 at grazing angles (Schlick 1994)
 };
 
+inline constexpr float smoothest_alpha = 0.002f;  // of ggx; what is smoother has highlights of this size, and else is a perfect mirror
+
+// What a rough surface that light goes through loses between its facets, and how that comes back after all: from all over, on both sides (Kulla and Conty 2017,
+// slides 16 to 22). By side that light comes from: outer, inner. Perfectly smooth surfaces lose nothing, and have none of this.
+struct RoughGlass {
+    std::array<SplitSums, 2> sums;  // glass_sums
+    std::array<float, 2> through{}; // share of what was lost that ends up on the other side
+    std::array<float, 2> density{}; // so much of it to each direction (1/sr) on this side, times what is missing there
+    std::array<MissingCells, 2> cells{};
+
+    bool operator==(const RoughGlass&) const = default;
+};
+
 struct Lobes {
     Rgb emission;            // radiance, whatever the light
     Rgb diffuse;             // radiance per unit of irradiance: albedo, over pi for physical materials
@@ -29,6 +46,10 @@ struct Lobes {
     float coverage = 1;      // what Schlick's terms rise to at grazing angles
     float layer_f0 = 0;      // of the dielectric layer over the diffuse lobe of physical materials
     SplitSums sums;          // physical: reflectance of the whole ggx lobe
+    Rgb multiple;            // share of what is missing from those that comes back after more reflections between facets
+    float multiple_density = 0;  // so much of it to each direction (1/sr), times what is missing there
+    MissingCells multiple_cells{};
+    RoughGlass glass;
     Rgb mirror;              // weight of the reflected ray; with schlick: f0
     Rgb metal;               // dielectric: f0 of a metal beside it, rising to metal_share (Schlick)
     float metal_share = 0;
@@ -50,10 +71,13 @@ struct Lobes {
     bool mirrors() const { return !is_black(mirror); }
     bool refracts() const { return !is_black(refraction); }
     bool goes_on() const { return mirrors() || refracts() || !is_black(straight); }  // some ray may leave
+    bool transmits() const { return layered() && fresnel == Fresnel::dielectric; }  // physical, of glass to some extent: its reflection follows Fresnel's equations
+    bool smooth() const { return alpha <= smoothest_alpha; }                       // physical: its facets are one mirror
     bool layered() const { return highlight_lobe == HighlightLobe::ggx; }            // diffuse light is what a reflecting layer lets in
 };
 
 Lobes compile(const scene::Material& material);
+std::vector<Lobes> compile(std::span<const scene::Material> materials);  // sooner than one by one
 
 // Share of light that the smooth layer of a physical material's dielectric mirrors: what its mirrored ray weighs, its coverage and metal aside.
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside);
@@ -61,10 +85,6 @@ float layer_mirrors(const Lobes& lobes, double cosine, bool inside);
 // Light arriving from direction `to_light` (unit) with the given strength, leaving towards `to_viewer` (unit): radiance per unit of
 // strength. Both are on the side of the shading normal; cosine = dot(normal, to_light) > 0.
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight);
-
-// Share of light reflected by a smooth dielectric, unpolarised (Fresnel 1823). cosine: of the angle of incidence, >= 0. eta: index
-// behind over index in front. 1 under total internal reflection.
-double fresnel_dielectric(double cosine, double eta);
 
 // Weights of the two rays that a node may spawn, for a ray that meets the surface at `cosine` (>= 0), from inside or outside.
 struct ChildWeights {

@@ -28,6 +28,8 @@ std::array<double, 4> numbers(const SamplePoint& point, int depth, Use use, std:
 // Power heuristic with exponent 2: the share of a direction drawn with density a that could also have been drawn with density b.
 double power_share(double a, double b) { return a <= 0 ? 0 : 1 / (1 + (b / a) * (b / a)); }
 
+bool bends(const Lobes& lobes) { return lobes.refracts() && lobes.ior != 1; }
+
 Rgb over(Rgb color, double divisor) { return color * static_cast<float>(1 / divisor); }
 
 Rgb absorbed(const Lobes& lobes, double length) {
@@ -68,7 +70,7 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
             const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
             const auto u = numbers(p, 0, Use::first_light, group);
             if (const auto arrived = sample_group(vertex, group, chance, false, {u[0], u[1], u[2]})) {
-                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, arrived->value.glossy * arrived->light});
+                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, arrived->value.glossy * arrived->light});
             }
         }
     }
@@ -139,12 +141,14 @@ void PathSampler::meet_lights(const Path& path, const Ray& ray, const Hit& hit) 
 
 // Light that a path met, as far as it was not sampled where its ray starts.
 void PathSampler::take(const Path& path, const Emitted& emitted) {
-    if (path.unlit || !world_.emitters.casts_shadows(emitted.group)) return;  // lights that nothing is in the way of are only sampled
+    if (!world_.emitters.casts_shadows(emitted.group)) return;  // lights that nothing is in the way of are only sampled
+    const bool unlit = path.sharp && !settings_.caustics;
+    if (unlit && path.scattered) return;
     const bool highlights = world_.emitters.makes_highlights(emitted.group);
     if (!highlights && path.glossy_last) return;
     const double share = path.pdf == 0 ? 1 : power_share(path.pdf, path.chance * emitted.pdf);
     const Rgb light = path.throughput * emitted.radiance * static_cast<float>(share);
-    add(path.point, emitted.group, path.diffuse * light, highlights || path.depth > 0 ? path.glossy * light : Rgb{});
+    add(path.point, emitted.group, unlit ? Rgb{} : path.diffuse * light, highlights || path.depth > 0 ? path.glossy * light : Rgb{});
 }
 
 // Light at a vertex of a path, and its next ray.
@@ -155,13 +159,15 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
         const auto u = numbers(point, depth, Use::light);
         const auto group = std::min(static_cast<std::size_t>(u[3] * static_cast<double>(groups_)), groups_ - 1);
         if (const auto arrived = sample_group(vertex, group, 1.0 / static_cast<double>(groups_), true, {u[0], u[1], u[2]})) {
-            const Rgb light = path.throughput * (arrived->value.diffuse + arrived->value.glossy) * arrived->light;
-            queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(group), path.diffuse * light, path.glossy * light});
+            const Rgb light = path.throughput * arrived->light, spread = light * arrived->value.diffuse, sharp = light * arrived->value.glossy;
+            const Rgb for_diffuse = bends(*vertex.lobes) && !settings_.caustics ? spread : spread + sharp;
+            queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(group), path.diffuse * for_diffuse,
+                                     path.glossy * (path.scattered ? for_diffuse : spread), path.scattered ? Rgb{} : path.glossy * sharp});
         }
     }
     if (const auto arrived = sample_lamp(vertex, numbers(point, depth, Use::lamp)[0])) {
         const Rgb light = path.throughput * arrived->light;
-        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light});
+        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light, {}});
     }
     if (depth >= settings_.depth) return;
     if (depth >= sure_steps) {  // Russian roulette (Arvo and Kirk 1990)
@@ -179,7 +185,7 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
         path.from = vertex.position;
         path.pdf = s->delta ? 0 : s->value.pdf;
         path.chance = groups_ == 0 ? 0 : 1.0 / static_cast<double>(groups_);
-        path.unlit = s->delta && path.scattered && !settings_.caustics;  // what comes so through glass, shadow rays have told
+        path.sharp = s->delta || (s->part == Part::glossy && bends(*vertex.lobes));  // what comes so through glass, shadow rays have told
         path.scattered = path.scattered || s->part == Part::diffuse;
         path.glossy_last = s->part == Part::glossy;
     }
@@ -239,7 +245,7 @@ Ray PathSampler::ray_from(const Vertex& v, Vec3 direction) const {
 
 void PathSampler::queue(const Vertex& v, const Arrived& arrived, const Connection& connection) {
     const bool open = arrived.distance == 0 || (connection.group < groups_ && !world_.emitters.casts_shadows(connection.group));
-    if (open) return add(connection.point, connection.group, connection.diffuse, connection.glossy);
+    if (open) return add(connection.point, connection.group, connection.diffuse, connection.glossy + connection.mirrored);
     shadow_rays_.push_back(ray_from(v, arrived.direction));
     shadow_rays_.back().t_max = arrived.distance * (1 - 1e-9) - 2 * v.offset;  // short of the surface that shines
     connections_.push_back(connection);
@@ -259,8 +265,13 @@ void PathSampler::trace_connections() {
         while (crossing != crossings_.end() && crossing->ray == i) ++crossing;
         if (hits_[i].found()) continue;
         const Connection& c = connections_[i];
-        const Rgb filter = first == crossing ? Rgb{1, 1, 1} : passage(world_, {first, crossing}, shadow_rays_[i], settings_.caustics);
-        add(c.point, c.group, c.diffuse * filter, c.glossy * filter);
+        if (first == crossing) {
+            add(c.point, c.group, c.diffuse, c.glossy + c.mirrored);
+            continue;
+        }
+        const Rgb filter = passage(world_, {first, crossing}, shadow_rays_[i], settings_.caustics);
+        const Rgb clear = is_black(c.mirrored) ? Rgb{} : passage(world_, {first, crossing}, shadow_rays_[i], true);
+        add(c.point, c.group, c.diffuse * filter, c.glossy * filter + c.mirrored * clear);
     }
     shadow_rays_.clear(), connections_.clear();
 }

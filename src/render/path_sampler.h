@@ -51,11 +51,12 @@ private:
         std::uint8_t depth;
         bool scattered;       // some lobe on the way was diffuse
         bool glossy_last;     // the lobe that sent the ray was
-        bool unlit;           // lights that it meets next do not count
+        bool sharp;           // a mirror or a body that bends light sent it: unless caustics are asked for, diffuse surfaces do not get lights that it meets
     };
     struct Connection {  // a shadow ray, and what it brings if nothing is in the way
         std::uint32_t point, group;
         Rgb diffuse, glossy;
+        Rgb mirrored;  // of the glossy part too, by no diffuse lobe: not through what bends light, since paths find what comes so
     };
     struct Vertex {  // where a path met a surface
         Vec3 position;

@@ -391,6 +391,7 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const scene::Settings& settings = world.scene.settings;
     const auto first_of = [&](scene::Level level) { return first_stage(level_of_stage, level); };
     const int shadows = first_of(scene::Level::shadows), reflections = first_of(scene::Level::reflections), edges = first_of(scene::Level::edges);
+    const int first_round = first_of(settings.level > scene::Level::edges ? settings.level : scene::Level::soft);  // of samples
     const bool untried = std::exchange(tile.untried, false), resamples = std::exchange(tile.resamples, false);
     const bool sampled = !tile.samples.empty();
     // The stages go on from a picture without samples, as they did at first; those that still hold come back with the first round.
@@ -416,12 +417,11 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     // Stopped amid splitting, or with some roots lost, splits cannot be looked through one by one.
     const bool complete = tile.stage == static_cast<int>(level_of_stage.size()) && tile.quads_before.empty();
     if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
-    tile.stage = std::min({tile.stage, stage, edges});
+    tile.stage = std::min({tile.stage, stage, edges, first_round});
     if (tile.stage == static_cast<int>(level_of_stage.size())) release(tile.pixels), tile.pixels_stage = -1;
     const bool watched = tile.previewed_until > 0;
     if (watched) tile.previewed_until = stage <= shadows ? shadows + 1 : stage == reflections ? edges : 0;
     // Stale light is better than none, and than very noisy light.
-    const int first_round = edges + (settings.supersampling > 0 ? settings.supersampling : 0);
     if (sampled && watched) tile.previewed_until = std::min(first_round + (resamples ? 2 : 1), static_cast<int>(level_of_stage.size()));
 }
 

@@ -1,49 +1,112 @@
 #include "render/split_sum.h"
 
 #include <algorithm>
-#include <cstdint>
 
-#include "math/vec.h"
 #include "math/vec_lanes.h"
+#include "render/fresnel.h"
+#include "render/microfacets.h"
 
 namespace crescente::render {
 namespace {
 
-using namespace math;
-
 constexpr double last = std::tuple_size_v<SplitSums> - 1;
 
-SplitSum split_sum_at(double alpha, double cosine) {
-    constexpr std::uint32_t samples = 64;
-    const auto lambda = [alpha](double c) { return 0.5 * (std::sqrt(1 + alpha * alpha * (1 - c * c) / (c * c)) - 1); };
-    const Vec3 viewer{std::sqrt(1 - cosine * cosine), 0, cosine};
-    const Vec3 stretched = normalize(Vec3{alpha * viewer.x, 0, viewer.z}), across{0, 1, 0}, along = cross(stretched, across);
-    double scale = 0, bias = 0;
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        std::uint32_t reversed = 0;  // radical inverse: Hammersley's points
-        for (std::uint32_t bit = 0; bit < 6; ++bit) reversed |= (i >> bit & 1) << (5 - bit);
-        const double r = std::sqrt((i + 0.5) / samples), phi = 2 * pi * (reversed + 0.5) / samples;
-        const double t1 = r * std::cos(phi), s = 0.5 * (1 + stretched.z), t2 = (1 - s) * std::sqrt(1 - t1 * t1) + s * r * std::sin(phi);
-        const Vec3 visible = across * t1 + along * t2 + stretched * std::sqrt(std::max(0.0, 1 - t1 * t1 - t2 * t2));
-        const Vec3 half = normalize(Vec3{alpha * visible.x, alpha * visible.y, std::max(1e-9, visible.z)});
-        const double v_h = std::clamp(dot(viewer, half), 0.0, 1.0), n_l = 2 * v_h * half.z - viewer.z;
-        if (n_l <= 0) continue;
-        const double passed = (1 + lambda(cosine)) / (1 + lambda(cosine) + lambda(n_l)), m = 1 - v_h, fresnel = m * m * m * m * m;
-        scale += passed * (1 - fresnel);
-        bias += passed * fresnel;
+// Means over the facets that are seen at each of the cosines. what(v_h, passed) says what one facet adds: v_h is the cosine between its normal and the viewer,
+// passed(w) the share of what leaves it for w that other facets let through.
+//
+// A facet's normal depends on two numbers in [0, 1] (Microfacets::sample_seen). The first is an angle: evenly spaced ones do well. Of the second, the steep facets at
+// its end weigh most in the error; the substitution 1 - u2 = (1 - t)^3 (1 + 3 t) crowds the points there.
+template <class What>
+SplitSums means_over_facets(double alpha, int angles, int tilts, const What& what) {
+    const Microfacets facets{alpha, alpha};
+    SplitSums sums;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double root = static_cast<double>(i) / last, cosine = std::max(1e-4, root * root);
+        const Vec3 viewer{std::sqrt(1 - cosine * cosine), 0, cosine};
+        const double hidden = facets.hidden(viewer);
+        double scale = 0, bias = 0, weights = 0;
+        for (int k = 0; k < tilts; ++k) {
+            const double t = (k + 0.5) / tilts, rest = 1 - t, weight = t * rest * rest, u2 = 1 - rest * rest * rest * (1 + 3 * t);
+            for (int j = 0; j < angles; ++j) {
+                const Vec3 h = facets.sample_seen(viewer, 0.5 * (j + 0.5) / angles, u2);  // the other half is its mirror image
+                const double v_h = std::clamp(dot(viewer, h), 0.0, 1.0);
+                const auto passed = [&](Vec3 w) { return (1 + hidden) / (1 + hidden + facets.hidden(w)); };
+                const auto [a, b] = what(viewer, h, v_h, passed);
+                scale += a * weight, bias += b * weight, weights += weight;
+            }
+        }
+        sums[i] = {static_cast<float>(scale / weights), static_cast<float>(bias / weights)};
     }
-    return {static_cast<float>(scale / samples), static_cast<float>(bias / samples)};
+    return sums;
+}
+
+double fourth_power(double x) { return x * x * x * x; }
+
+// Twice the integral over a cell of e, linear in s, times the cosine s^2: that of 4 s^3 (a + b s) over s.
+double over_cell(std::size_t i, double e0, double e1) {
+    const double s0 = static_cast<double>(i) / last, s1 = static_cast<double>(i + 1) / last, b = (e1 - e0) * last, a = e0 - b * s0;
+    return a * (fourth_power(s1) - fourth_power(s0)) + b * 0.8 * (fourth_power(s1) * s1 - fourth_power(s0) * s0);
 }
 
 }  // namespace
 
 SplitSums split_sums(double alpha) {
+    return means_over_facets(alpha, 8, 16, [](Vec3 v, Vec3 h, double v_h, const auto& passed) {
+        const Vec3 l = h * (2 * v_h) - v;
+        if (l.z <= 0) return std::pair{0.0, 0.0};
+        const double p = passed(l), fresnel = fifth_power(1 - v_h);
+        return std::pair{p * (1 - fresnel), p * fresnel};
+    });
+}
+
+SplitSums smooth_split_sums() {
     SplitSums sums;
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double root = static_cast<double>(i) / last;
-        sums[i] = split_sum_at(alpha, std::max(1e-4, root * root));
+        const double root = static_cast<double>(i) / last, fresnel = fifth_power(1 - root * root);
+        sums[i] = {static_cast<float>(1 - fresnel), static_cast<float>(fresnel)};
     }
     return sums;
+}
+
+SplitSums glass_sums(double alpha, double eta) {
+    return means_over_facets(alpha, 12, 32, [eta](Vec3 v, Vec3 h, double v_h, const auto& passed) {
+        const double fresnel = fresnel_dielectric(v_h, eta), sin2 = (1 - v_h * v_h) / (eta * eta);
+        const Vec3 l = h * (2 * v_h) - v;
+        std::pair<double, double> shares{l.z > 0 ? fresnel * passed(l) : 0, 0};
+        if (sin2 < 1) {
+            const Vec3 through = h * (v_h / eta - std::sqrt(1 - sin2)) - v / eta;
+            if (through.z < 0) shares.second = (1 - fresnel) * passed(through);
+        }
+        return shares;
+    });
+}
+
+double mean_of_sums(const SplitSums& sums, double scale, double bias) {
+    double mean = 0;
+    for (std::size_t i = 0; i + 1 < sums.size(); ++i) mean += over_cell(i, scale * sums[i].scale + bias * sums[i].bias, scale * sums[i + 1].scale + bias * sums[i + 1].bias);
+    return mean;
+}
+
+MissingCells missing_cells(const SplitSums& sums) {
+    std::array<double, std::tuple_size_v<MissingCells>> upto;
+    double whole = 0;
+    for (std::size_t i = 0; i < upto.size(); ++i) upto[i] = whole += over_cell(i, sums[i].missing(), sums[i + 1].missing());
+    MissingCells cells{};
+    for (std::size_t i = 0; whole > 0 && i < cells.size(); ++i) cells[i] = static_cast<float>(upto[i] / whole);
+    return cells;
+}
+
+double draw_cosine(const MissingCells& cells, double u) {
+    // Even in the square of the cosine, in a cell: by the cosine.
+    const auto i = static_cast<std::size_t>(std::min(std::upper_bound(cells.begin(), cells.end(), u), cells.end() - 1) - cells.begin());
+    const double below = i == 0 ? 0 : cells[i - 1], t = std::clamp((u - below) / (cells[i] - below), 0.0, 1.0);
+    return std::sqrt(fourth_power(i / last) + t * (fourth_power((i + 1) / last) - fourth_power(i / last)));
+}
+
+double density_of_cosine(const MissingCells& cells, double cosine) {
+    const auto i = std::min(static_cast<std::size_t>(last * std::sqrt(std::clamp(cosine, 0.0, 1.0))), cells.size() - 1);
+    const double share = double(cells[i]) - (i == 0 ? 0 : cells[i - 1]);
+    return share * cosine / (pi * (fourth_power((i + 1) / last) - fourth_power(i / last)));
 }
 
 SplitSum split_sum(const SplitSums& sums, double cosine) {

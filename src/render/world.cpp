@@ -16,7 +16,7 @@ scene::Material blurred(scene::Material material) {
 // All but the accelerator.
 void derive(World& world) {
     const scene::Scene& s = world.scene;
-    for (const scene::Material& material : s.materials) world.lobes.push_back(compile(material));
+    world.lobes = compile(s.materials);
     world.lobes.push_back(compile(scene::Material{}));
     const auto default_material = static_cast<std::uint32_t>(world.lobes.size() - 1);
 
