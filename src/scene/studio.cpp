@@ -97,7 +97,7 @@ Set set_of(Studio studio) {
             return {{{"key", -40, 42, 4.5, 1.4, 1.4, 3.0, warm}, {"fill", 55, 18, 5, 2.6, 2.6, 0.9, white}, {"rim", 160, 42, 4.5, 0.7, 2.6, 2.6, cool}},
                     0.5f, 0.35f, 0.15f, 0.25, 0.3f, 0.5f};
         case Studio::overhead:  // a strip above, across the view
-            return {{{"strip", 0, 84, 3.2, 5, 1.1, 3.6, white}, {"front", 0, 20, 5, 3, 1, 0.35, white}}, 0.7f, 0.4f, 0.2f, 0.3, 0.35f, 0.6f};
+            return {{{"strip", 0, 84, 3.2, 5, 1.1, 3.6, white}, {"front", 0, 20, 5, 3, 1, 0.9, white}}, 0.7f, 0.4f, 0.2f, 0.3, 0.35f, 0.6f};
         case Studio::tent:  // white cloth on all sides: hardly a shadow, and for glossy things nothing dark to mirror
             return {{{"left", -85, 30, 2.8, 3.4, 3.4, 1.2, white}, {"right", 85, 30, 2.8, 3.4, 3.4, 1.2, white}, {"back", 180, 30, 2.8, 3.4, 3.4, 0.9, white},
                      {"top", 0, 86, 2.8, 3.4, 3.4, 1.6, white}},
