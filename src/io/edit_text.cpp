@@ -1,6 +1,7 @@
 #include "io/edit_text.h"
 
 #include "io/object_reader.h"
+#include "io/panorama_file.h"
 #include "io/scene_names.h"
 #include "io/scene_parts.h"
 #include "io/set_value.h"
@@ -287,7 +288,9 @@ private:
     void set_environment(const Json& json, const Place& place) {
         draft_.environment.reset();
         if (json.is_null()) return;
-        read_fields(json, draft_.environment.emplace(), scene::Environment::fields(), measure_, place, problems_);
+        scene::Environment& environment = draft_.environment.emplace();
+        read_fields(json, environment, scene::Environment::fields(), measure_, place, problems_);
+        if (json.object() && json.find("image")) load_panorama(environment, *json.find("image"), place / "image", problems_);
     }
 
     void batch(const Json& json, const Place& place) {

@@ -7,6 +7,7 @@
 #include "base/spelling.h"
 #include "io/json_fields.h"
 #include "io/object_reader.h"
+#include "io/panorama_file.h"
 #include "io/scene_parts.h"
 #include "io/scene_words.h"
 #include "io/text_file.h"
@@ -187,7 +188,11 @@ private:
         if (const Json* environment = json.find("environment")) {
             scene::Environment read;
             read_fields(*environment, read, scene::Environment::fields(), measure_, top / "environment", problems_);
-            if (outermost()) scene().environment = read;
+            if (outermost()) {
+                const Json* image = environment->find("image");
+                if (image) append(load_panorama(read, *image, top / "environment" / "image", problems_));
+                scene().environment = read;
+            }
         }
     }
 
@@ -282,6 +287,10 @@ private:
         }
         for (auto& root : from.roots) root.value += nodes;
         return std::move(from.roots);
+    }
+
+    void append(const Problems& warnings) {
+        for (const Problem& warning : warnings) loading_.loaded.warnings.push_back(warning);
     }
 
     void take_problems(const Error& error) {

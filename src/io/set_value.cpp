@@ -1,5 +1,6 @@
 #include "io/set_value.h"
 
+#include "io/panorama_file.h"
 #include "io/scene_names.h"
 
 namespace crescente::io {
@@ -29,17 +30,18 @@ public:
         : draft_(draft), path_(path), value_(value), measure_(measure), place_(place), problems_(problems) {}
 
     void run() {
-        if (path_.what == "settings") return set_single(draft_.settings);
+        if (path_.what == "settings") return void(set_single(draft_.settings));
         if (path_.what == "material") return set_named(draft_.materials, [](Draft& d, std::size_t i) -> auto& { return d.materials.change(i); });
         if (path_.what == "light") return set_named(draft_.lights, [](Draft& d, std::size_t i) -> auto& { return d.lights[i]; });
         if (path_.what == "shape") return set_named(draft_.shapes, [](Draft& d, std::size_t i) -> auto& { return d.shapes.change(i); });
         if (path_.what == "camera") {
             if (!draft_.camera) return wrong("the scene has no camera yet");
-            return set_single(*draft_.camera);
+            return void(set_single(*draft_.camera));
         }
         if (path_.what == "environment") {
             if (!draft_.environment) draft_.environment.emplace();
-            return set_single(*draft_.environment);
+            if (set_single(*draft_.environment) && path_.field == "image") load_panorama(*draft_.environment, value_, place_, problems_);
+            return;
         }
         const std::vector<std::string> known{"settings", "camera", "environment", "light", "material", "shape"};
         wrong("'" + std::string(path_.what.substr(0, 100)) + "' is nothing that can be set", spelling_hint(path_.what, known));
@@ -81,10 +83,11 @@ private:
         }
     }
     template <class Owner>
-    void set_single(Owner& owner) {
+    bool set_single(Owner& owner) {
         const std::string what{path_.what};
-        if (path_.has_name) return wrong("there is only one " + what, "write " + what + "." + std::string(path_.field));
-        set_field(owner);
+        if (!path_.has_name) return set_field(owner);
+        wrong("there is only one " + what, "write " + what + "." + std::string(path_.field));
+        return false;
     }
 
     Draft& draft_;

@@ -192,7 +192,7 @@ std::optional<EmitterSample> Emitters::sample(std::size_t group, Vec3 point, con
     if (g.kind == Kind::environment) {
         const Environment::Sample chosen = environment_.sample(u[0], u[1]);
         if (!(chosen.pdf > 0)) return std::nullopt;
-        return EmitterSample{chosen.direction, std::numeric_limits<double>::infinity(), environment_radiance(environment_, chosen.direction), chosen.pdf};
+        return EmitterSample{chosen.direction, std::numeric_limits<double>::infinity(), environment_.radiance(chosen.direction), chosen.pdf};
     }
     const auto choice = g.hierarchy.choose(point, u[2]);
     if (!choice) return std::nullopt;
@@ -220,7 +220,7 @@ void Emitters::lights_on(const geometry::Ray& ray, Vec3 from, std::vector<Emitte
 
 std::optional<Emitted> Emitters::environment(Vec3 direction) const {
     if (environment_group_ >= groups_.size()) return std::nullopt;
-    return Emitted{environment_group_, environment_radiance(environment_, direction), environment_.pdf(direction), std::numeric_limits<double>::infinity(), true};
+    return Emitted{environment_group_, environment_.radiance(direction), environment_.pdf(direction), std::numeric_limits<double>::infinity(), true};
 }
 
 std::optional<Emitted> Emitters::surface(std::uint32_t instance, std::uint32_t primitive, std::uint32_t material, Vec3 point, Vec3 from) const {

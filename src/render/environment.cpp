@@ -3,13 +3,39 @@
 namespace crescente::render {
 
 Environment::Environment(const scene::Environment& source)
-    : source_(source), brightness_{luminance(source.nadir), luminance(source.horizon), luminance(source.zenith)} {
+    : source_(source), cos_(std::cos(source.rotation)), sin_(std::sin(source.rotation)),
+      brightness_{luminance(source.nadir), luminance(source.horizon), luminance(source.zenith)} {
     total_ = brightness_[0] / 2 + brightness_[1] + brightness_[2] / 2;
 }
 
 bool Environment::same_radiance(const Environment& other) const {
     const scene::Environment &a = source_, &b = other.source_;
-    return a.zenith == b.zenith && a.horizon == b.horizon && a.nadir == b.nadir;
+    if (a.panorama && b.panorama) return a.panorama->content() == b.panorama->content() && a.rotation == b.rotation;
+    return !a.panorama && !b.panorama && a.zenith == b.zenith && a.horizon == b.horizon && a.nadir == b.nadir;
+}
+
+// Of the gradient: linear in the height of the direction between nadir, horizon and zenith.
+Rgb Environment::radiance(Vec3 direction) const {
+    if (panorama()) return panorama()->radiance(in_picture(direction));
+    const auto y = static_cast<float>(direction.y);
+    return y >= 0 ? mix(source_.horizon, source_.zenith, y) : mix(source_.horizon, source_.nadir, -y);
+}
+
+Rgb Environment::irradiance(Vec3 normal) const {
+    if (panorama()) return panorama()->irradiance(in_picture(normal));
+    // Clamped cosine about the normal times clamped cosine about the vertical, over the sphere, over pi: (2 / 3 pi)
+    // (sin a + (pi - a) cos a) for the angle a between them (the zonal form of Ramamoorthi and Hanrahan 2001, integrated exactly).
+    const auto overlap = [](double c) {
+        const double a = std::acos(std::clamp(c, -1.0, 1.0));
+        return static_cast<float>(2 / (3 * pi) * (std::sqrt(std::max(0.0, 1 - c * c)) + (pi - a) * c));
+    };
+    const scene::Environment& e = source_;
+    return e.horizon + (e.zenith - e.horizon) * overlap(normal.y) + (e.nadir - e.horizon) * overlap(-normal.y);
+}
+
+Rgb Environment::blurred(Vec3 direction, double roughness) const {
+    if (panorama()) return panorama()->blurred(in_picture(direction), roughness);
+    return mix(radiance(direction), irradiance(direction), static_cast<float>(roughness));
 }
 
 // Equal bands of height are equal solid angles (Archimedes), so that the height's density follows the brightness, linear in each half.
@@ -19,6 +45,11 @@ double Environment::height_density(double height) const {
 }
 
 Environment::Sample Environment::sample(double u0, double u1) const {
+    if (panorama()) {
+        const Sample s = panorama()->sample(u0, u1);
+        const Vec3 d = s.direction;
+        return {{d.x * cos_ + d.z * sin_, d.y, d.z * cos_ - d.x * sin_}, s.pdf};
+    }
     const double below = (brightness_[0] + brightness_[1]) / (2 * total_);
     const bool up = u0 >= below;
     const double u = std::clamp(up ? (u0 - below) / (1 - below) : u0 / below, 0.0, 1.0);
@@ -29,28 +60,16 @@ Environment::Sample Environment::sample(double u0, double u1) const {
     return {{level * std::cos(azimuth), height, level * std::sin(azimuth)}, height_density(height) / (2 * pi)};
 }
 
-double Environment::pdf(Vec3 direction) const { return height_density(direction.y) / (2 * pi); }
+double Environment::pdf(Vec3 direction) const { return panorama() ? panorama()->pdf(in_picture(direction)) : height_density(direction.y) / (2 * pi); }
 
 Rgb environment_radiance(const Environment& environment, Vec3 direction) {
-    const scene::Environment& e = environment.source();
-    const auto y = static_cast<float>(direction.y);
-    return y >= 0 ? mix(e.horizon, e.zenith, y) : mix(e.horizon, e.nadir, -y);
-}
-
-Rgb environment_irradiance(const Environment& environment, Vec3 normal) {
-    const scene::Environment& e = environment.source();
-    // Clamped cosine about the normal times clamped cosine about the vertical, over the sphere, over pi: (2 / 3 pi)
-    // (sin a + (pi - a) cos a) for the angle a between them (the zonal form of Ramamoorthi and Hanrahan 2001, integrated exactly).
-    const auto overlap = [](double c) {
-        const double a = std::acos(std::clamp(c, -1.0, 1.0));
-        return static_cast<float>(2 / (3 * pi) * (std::sqrt(std::max(0.0, 1 - c * c)) + (pi - a) * c));
-    };
-    return e.horizon + (e.zenith - e.horizon) * overlap(normal.y) + (e.nadir - e.horizon) * overlap(-normal.y);
+    const Rgb radiance = environment.radiance(direction);
+    return environment.source().panorama ? radiance * static_cast<float>(environment.source().intensity) : radiance;
 }
 
 Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3 normal, Vec3 to_viewer, bool inside) {
     if (environment.strength() == 0) return {};
-    const Rgb irradiance = environment_irradiance(environment, normal);
+    const Rgb irradiance = environment.irradiance(normal);
     Rgb result = lobes.ambient_diffuse * irradiance;
     if (lobes.layered()) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
@@ -63,7 +82,7 @@ Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3
         if (blurred > 0 && !is_black(lobes.ambient_specular)) {
             const Rgb reflectance = lobes.ambient_specular * sum.scale + gray(lobes.coverage * sum.bias);
             const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
-            result += reflectance * blurred * mix(environment_radiance(environment, mirrored), environment_irradiance(environment, mirrored), lobes.roughness);
+            result += reflectance * blurred * environment.blurred(mirrored, lobes.roughness);
         }
     }
     return result * static_cast<float>(environment.strength());

@@ -107,7 +107,12 @@ Fingerprint fingerprint_of(const scene::Scene& scene) {
     lights.size(scene.lights, 1);
     for (const scene::Light& light : scene.lights) add_fields(lights, light);
     if (scene.camera) add_fields(camera, *scene.camera);
-    if (scene.environment) add_fields(surroundings, *scene.environment);
+    if (scene.environment) {
+        scene::Environment nameless = *scene.environment;
+        nameless.image.clear();
+        add_fields(surroundings, nameless);
+        add(surroundings, nameless.panorama ? nameless.panorama->content() : std::uint64_t{0});
+    }
     return {{shapes.hash, objects.hash, materials.hash, lights.hash, camera.hash, surroundings.hash}};
 }
 

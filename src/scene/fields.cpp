@@ -89,7 +89,10 @@ const FieldTable<Environment>& Environment::fields() {
         field(&E::backdrop, {"backdrop", FieldType::boolean, "", 0, 1, "The camera sees the backdrop colours instead"}),
         field(&E::backdrop_bottom, {"backdrop_bottom", FieldType::color, "", 0, unbounded, "At the bottom of the picture"}),
         field(&E::backdrop_top, {"backdrop_top", FieldType::color, "", 0, unbounded, "At the top of the picture"}),
-        field(&E::strength, {"strength", FieldType::number, "", 0, unbounded, "How much the environment lights surfaces"}),
+        field(&E::strength, {"strength", FieldType::number, "", 0, unbounded, "How much the gradient lights surfaces"}),
+        field(&E::image, {"image", FieldType::text, "", 0, 0, "Equirectangular picture in place of the gradient: path of a .hdr, .exr or other file; its middle is at +x"}),
+        field(&E::rotation, {"rotation", FieldType::angle, "deg", -unbounded, unbounded, "Turns the picture about +y, counter-clockwise seen from above"}),
+        field(&E::intensity, {"intensity", FieldType::number, "", 0, unbounded, "Factor of the picture's radiance, seen and as light"}),
     };
     return table;
 }

@@ -1,6 +1,7 @@
 #include "scene/studio.h"
 
 #include <functional>
+#include <string>
 
 namespace crescente::scene {
 namespace {
@@ -71,6 +72,56 @@ void add_soft_box(Scene& scene, const std::string& name, Vec3 center, Vec3 from,
     }
 }
 
+// An evenly bright rectangle that faces the model. Angles in degrees, azimuth from the camera's, to its right; lengths in radii of the model.
+struct Panel {
+    const char* name;
+    double azimuth, elevation, distance, width, height;
+    double irradiance;  // of what faces it at the model
+    math::Rgb color;
+};
+
+// Panels, what surrounds them, and the backdrop.
+struct Set {
+    std::vector<Panel> panels;
+    float zenith, horizon, nadir;
+    double strength;
+    float backdrop_bottom, backdrop_top;
+};
+
+Set set_of(Studio studio) {
+    constexpr math::Rgb warm{1.0f, 0.97f, 0.93f}, cool{0.93f, 0.96f, 1.0f}, white{1, 1, 1};
+    switch (studio) {
+        case Studio::softbox:  // one large window of light, the other side lifted
+            return {{{"soft box", -45, 42, 4, 2.6, 2.6, 3.2, white}, {"reflector", 70, 15, 4.5, 2.5, 2.5, 0.5, white}}, 0.9f, 0.6f, 0.25f, 0.3, 0.5f, 0.72f};
+        case Studio::three_point:  // key, fill, rim
+            return {{{"key", -40, 42, 4.5, 1.4, 1.4, 3.0, warm}, {"fill", 55, 18, 5, 2.6, 2.6, 0.9, white}, {"rim", 160, 42, 4.5, 0.7, 2.6, 2.6, cool}},
+                    0.5f, 0.35f, 0.15f, 0.25, 0.3f, 0.5f};
+        case Studio::overhead:  // a strip above, across the view
+            return {{{"strip", 0, 84, 3.2, 5, 1.1, 3.6, white}, {"front", 0, 20, 5, 3, 1, 0.9, white}}, 0.7f, 0.4f, 0.2f, 0.3, 0.35f, 0.6f};
+        case Studio::tent:  // white cloth on all sides: hardly a shadow, and for glossy things nothing dark to mirror
+            return {{{"left", -85, 30, 2.8, 3.4, 3.4, 1.2, white}, {"right", 85, 30, 2.8, 3.4, 3.4, 1.2, white}, {"back", 180, 30, 2.8, 3.4, 3.4, 0.9, white},
+                     {"top", 0, 86, 2.8, 3.4, 3.4, 1.6, white}},
+                    1.1f, 1.0f, 0.7f, 0.45, 0.85f, 0.95f};
+        case Studio::points: break;
+    }
+    return {{}, 1.25f, 0.62f, 0.22f, 0.18, 0.55f, 0.75f};
+}
+
+void add_panel(Scene& scene, const Panel& panel, Vec3 center, double radius, double camera_azimuth) {
+    const Vec3 from = direction_of(camera_azimuth + panel.azimuth, panel.elevation);
+    const double distance = panel.distance * radius;
+    Light light;
+    light.name = panel.name;
+    light.kind = LightKind::rectangle;
+    light.position = center + from * distance;
+    light.direction = -from;
+    light.width = panel.width * radius, light.height = panel.height * radius;
+    light.intensity = panel.irradiance * distance * distance;
+    light.color = panel.color;
+    light.visible = false;  // the backdrop is what the camera sees behind the model
+    scene.lights.push_back(light);
+}
+
 // Light from all of the upper half: directions spread evenly (Fibonacci) with shadows, so that contacts and hollows darken.
 void add_dome(Scene& scene, int directions, double irradiance) {
     for (int i = 0; i < directions; ++i) {
@@ -83,6 +134,12 @@ void add_dome(Scene& scene, int directions, double irradiance) {
         light.highlights = false;
         scene.lights.push_back(light);
     }
+}
+
+void add_point_lights(Scene& scene, Vec3 center, double radius, double azimuth) {
+    add_soft_box(scene, "key", center, direction_of(azimuth - 42, 46), 5 * radius, 1.1 * radius, 16, 2.9, {1.0f, 0.97f, 0.93f});
+    add_soft_box(scene, "rim", center, direction_of(azimuth + 150, 38), 5 * radius, 0.8 * radius, 5, 1.0, {0.93f, 0.96f, 1.0f});
+    add_dome(scene, 20, 0.85);
 }
 
 void add_ground(Scene& scene, const Bounds& box, double radius) {
@@ -114,7 +171,7 @@ bool shines(const Scene& scene) {
         const auto& m = std::get<ClassicMaterial>(material.model);
         return !is_black(m.emission) || !is_black(m.ambient);
     };
-    return !scene.lights.empty() || (scene.environment && scene.environment->strength > 0) ||
+    return !scene.lights.empty() || (scene.environment && scene.environment->lights()) ||
            std::any_of(scene.materials.begin(), scene.materials.end(), emits);
 }
 
@@ -125,7 +182,7 @@ bool can_be_framed(const math::Bounds& everything) {
     return everything.bounded() && everything.largest_coordinate() < largest;
 }
 
-void add_studio(Scene& scene) {
+void add_studio(Scene& scene, std::optional<Studio> asked) {
     const Bounds box = bounds(scene);
     const Vec3 center = box.bounded() ? box.center() : Vec3{};
     // Never so small that the camera's place could not be told from the target's.
@@ -139,22 +196,20 @@ void add_studio(Scene& scene) {
         frame(scene, camera, towards_camera, double(scene.settings.width) * camera.pixel_aspect / scene.settings.height, radius);
         scene.camera = camera;
     }
-    if (shines(scene)) return;
+    if (!asked && shines(scene)) return;
+    const Studio studio = asked.value_or(Studio::points);
+    const Set set = set_of(studio);
 
     const double azimuth = std::atan2(towards_camera.x, towards_camera.z) * 180 / math::pi;
-    add_soft_box(scene, "key", center, direction_of(azimuth - 42, 46), 5 * radius, 1.1 * radius, 16, 2.9, {1.0f, 0.97f, 0.93f});
-    add_soft_box(scene, "rim", center, direction_of(azimuth + 150, 38), 5 * radius, 0.8 * radius, 5, 1.0, {0.93f, 0.96f, 1.0f});
-    add_dome(scene, 20, 0.85);
+    for (const Panel& panel : set.panels) add_panel(scene, panel, center, radius, azimuth);
+    if (studio == Studio::points) add_point_lights(scene, center, radius, azimuth);
     if (!scene.environment) {
-        Environment studio;
-        studio.zenith = gray(1.25f);
-        studio.horizon = gray(0.62f);
-        studio.nadir = gray(0.22f);
-        studio.strength = 0.18;
-        studio.backdrop = true;
-        studio.backdrop_bottom = gray(0.55f);
-        studio.backdrop_top = gray(0.75f);
-        scene.environment = studio;
+        Environment around;
+        around.zenith = gray(set.zenith), around.horizon = gray(set.horizon), around.nadir = gray(set.nadir);
+        around.strength = set.strength;
+        around.backdrop = true;
+        around.backdrop_bottom = gray(set.backdrop_bottom), around.backdrop_top = gray(set.backdrop_top);
+        scene.environment = around;
     }
     // Seen from below, a ground would hide the model.
     if (box.bounded() && scene.camera->position.y > box.lower.y) add_ground(scene, box, radius);

@@ -56,7 +56,10 @@ private:
         check_fields(scene_.settings, "/settings");
         check_picture_size();
         if (scene_.camera) check_camera(*scene_.camera);
-        if (scene_.environment) check_fields(*scene_.environment, "/environment");
+        if (scene_.environment) {
+            check_fields(*scene_.environment, "/environment");
+            if (!scene_.environment->image.empty() && !scene_.environment->panorama) add("/environment/image", "the picture was not read");
+        }
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], "/lights/" + key_of(scene_.lights[i].name, i));
         check_light_groups();
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {

@@ -1,6 +1,8 @@
 // Pictures of real scenes: files, counters, time limits and interruption.
 #include <png.h>
 
+#include <numeric>
+
 #include <nlohmann/json.hpp>
 
 #include "app/program.h"
@@ -60,6 +62,43 @@ TEST_F(Render, BareModelGetsTheStudio) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_GT(colors(read_png(path("a.png"))), 200u);
     EXPECT_TRUE(contains(outcome.out, "120x80"));
+}
+
+TEST_F(Render, EveryStudioIsAnother) {
+    std::vector<std::string> pictures;
+    for (const char* studio : {"points", "softbox", "three-point", "overhead", "tent"}) {
+        const Outcome outcome = crescente({"render", (scenes / "2CylinderEngine.glb").string(), "-o", path("a.png"), "--size", "60x40", "--studio", studio, "-q"});
+        ASSERT_EQ(outcome.code, 0) << studio << outcome.err;
+        const Picture picture = read_png(path("a.png"));
+        EXPECT_GT(colors(picture), 200u) << studio;
+        const double mean = std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
+        EXPECT_GT(mean, 60) << studio;
+        EXPECT_LT(mean, 220) << studio;
+        pictures.emplace_back(picture.rgb.begin(), picture.rgb.end());
+    }
+    std::sort(pictures.begin(), pictures.end());
+    EXPECT_EQ(std::unique(pictures.begin(), pictures.end()), pictures.end());
+    const Outcome unknown = crescente({"render", balls, "-o", path("a.png"), "--studio", "tents"});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_TRUE(contains(unknown.err, "there is no studio 'tents'")) << unknown.err;
+    EXPECT_TRUE(contains(unknown.err, "'tent'")) << unknown.err;
+}
+
+TEST_F(Render, EnvironmentLightsABareModel) {
+    const std::string model = (scenes / "2CylinderEngine.glb").string();
+    // What another picture is, another can be seen in.
+    const Outcome made = crescente({"render", balls, "-o", path("around.hdr"), "--size", "64x32", "-q"});
+    if (made.code != 0 && contains(made.err, "OpenImageIO")) GTEST_SKIP() << "built without OpenImageIO";
+    ASSERT_EQ(made.code, 0) << made.err;
+    const Outcome lit = crescente({"render", model, "-o", path("lit.png"), "--size", "60x40", "--environment", path("around.hdr"), "-q"});
+    ASSERT_EQ(lit.code, 0) << lit.err;
+    EXPECT_GT(colors(read_png(path("lit.png"))), 200u);
+    const Outcome turned = crescente({"render", model, "-o", path("turned.png"), "--size", "60x40", "--environment", path("around.hdr"), "--set", "environment.rotation=90", "-q"});
+    ASSERT_EQ(turned.code, 0) << turned.err;
+    EXPECT_NE(read_png(path("turned.png")).rgb, read_png(path("lit.png")).rgb);
+    const Outcome absent = crescente({"render", model, "-o", path("a.png"), "--environment", path("absent.hdr")});
+    EXPECT_EQ(absent.code, 3) << absent.err;
+    EXPECT_TRUE(contains(absent.err, "absent.hdr")) << absent.err;
 }
 
 TEST_F(Render, NamedViewsDiffer) {

@@ -63,7 +63,10 @@ public:
         s.name = name();
         fill(s.settings);
         if (chance(0.7)) fill(s.camera.emplace());
-        if (chance(0.7)) fill(s.environment.emplace());
+        if (chance(0.7)) {
+            fill(s.environment.emplace());
+            s.environment->image.clear();  // a file of that name would have to be there
+        }
         for (int i = number(4); i-- > 0;) {
             s.lights.emplace_back();
             fill(s.lights.back());

@@ -94,6 +94,32 @@ TEST(EditCost, LightsTraceTheirOwnRays) {
     EXPECT_EQ(all_rays(cost_of(scene, {scene::RemoveLight{1}}).rays), 0u);
 }
 
+TEST(EditCost, LightsWithExtentAndTheirSurroundings) {
+    Scene scene = without_splits();
+    scene::Light panel;
+    panel.kind = scene::LightKind::rectangle, panel.position = {1, 4, 3}, panel.direction = {-0.2, -1, -0.4}, panel.intensity = 20;
+    scene.lights[0] = panel;
+    // Its size is nothing to the levels that see its centre, and its strength takes no ray.
+    panel.width = 3, panel.intensity = 9, panel.visible = false, panel.group = "all";
+    EXPECT_EQ(all_rays(cost_of(scene, {scene::SetLight{0, panel}}).rays), 0u);
+    panel.two_sided = true;
+    const Cost sides = cost_of(scene, {scene::SetLight{0, panel}});
+    EXPECT_EQ(all_rays(sides.rays), sides.rays.shadow);
+    panel.kind = scene::LightKind::disk;
+    cost_of(scene, {scene::SetLight{0, panel}});
+
+    scene::Environment sky;
+    std::vector<Rgb> pixels;
+    for (int i = 0; i < 32; ++i) pixels.push_back({float(i), float(i % 8), 3});
+    sky.panorama = std::make_shared<const scene::Panorama>(8, 4, std::move(pixels));
+    scene.environment.reset();
+    EXPECT_EQ(all_rays(cost_of(scene, {scene::SetEnvironment{sky}}).rays), 0u);
+    scene.environment = sky;
+    sky.rotation = 1, sky.intensity = 0.3;
+    EXPECT_EQ(all_rays(cost_of(scene, {scene::SetEnvironment{sky}}).rays), 0u);
+    cost_of(scene, {scene::SetEnvironment{}});
+}
+
 TEST(EditCost, AMovedObjectTracesWhatMeetsIt) {
     Build s(96, 72);
     s.settings().tile = 16, s.settings().depth = 3;

@@ -236,7 +236,7 @@ TEST(Irradiance, OfAnEnvironmentIsAsInClosedForm) {
     sky.zenith = {0.2f, 0.5f, 2}, sky.nadir = {0, 0.01f, 0};
     const Emitters e = s.emitters();
     for (const Vec3 normal : {Vec3{0, 1, 0}, normalize({1, 2, 3}), Vec3{0, -1, 0}}) {
-        const Rgb got = irradiance(e, 0, {}, normal, 1024), expected = environment_irradiance(s.world->environment, normal) * static_cast<float>(pi);
+        const Rgb got = irradiance(e, 0, {}, normal, 1024), expected = s.world->environment.irradiance(normal) * static_cast<float>(pi);
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], expected[k], 3e-3 * (1 + expected[k]));
     }
 }

@@ -87,6 +87,30 @@ TEST(Lambert, AmbientAndEmissionNeedNoLight) {
     expect_wall(wall(m).scene, [&](Vec3) { return Rgb{0.4f, 0.2f, 0.15f}; });
 }
 
+// Below the level that samples them they act at their centre: flat ones by the cosine, whatever their size.
+TEST(Extent, ActsAtItsCenter) {
+    for (const auto kind : {scene::LightKind::rectangle, scene::LightKind::disk, scene::LightKind::sphere}) {
+        for (const bool two_sided : {false, true}) {
+            SCOPED_TRACE(static_cast<int>(kind) * 2 + two_sided);
+            const bool flat = kind != scene::LightKind::sphere;
+            Build s = wall(matte(albedo));
+            scene::Light& light = s.light();
+            light.kind = kind, light.position = {0.3, -0.2, 1.7}, light.direction = {1, 0.5, -1}, light.intensity = 3, light.color = color;
+            light.width = 4, light.radius = 0.01, light.two_sided = two_sided;
+            if (two_sided) light.direction = -light.direction;
+            const Vec3 axis = normalize(light.direction);
+            expect_wall(s.scene, [&](Vec3 p) {
+                const Way w = way(p, light.position);
+                const double along = -dot(w.to_light, axis), emitted = !flat ? 1 : two_sided ? std::abs(along) : std::max(0.0, along);
+                return albedo * color * static_cast<float>(3 * emitted * w.cosine / (w.distance * w.distance));
+            });
+            if (!flat || two_sided) continue;
+            light.direction = -light.direction;
+            EXPECT_EQ(pixel(picture_of(s.scene), n / 2, n / 2), Rgb{}) << "it shines to the front only";
+        }
+    }
+}
+
 TEST(Falloff, ClassicNeverAmplifies) {
     Build s = wall(matte(albedo));
     scene::Light& light = s.light();

@@ -81,6 +81,30 @@ TEST(Validate, Lights) {
     EXPECT_TRUE(problems_after([](Scene& s) { s.lights[0].direction = {}; }).empty());
 }
 
+TEST(Validate, LightsWithExtent) {
+    EXPECT_PROBLEM("/lights/0/width", "is 0", (s.lights[0].kind = LightKind::rectangle, s.lights[0].width = 0));
+    EXPECT_PROBLEM("/lights/0/radius", "is 0", (s.lights[0].kind = LightKind::sphere, s.lights[0].radius = 0));
+    EXPECT_PROBLEM("/lights/0", "too small", (s.lights[0].kind = LightKind::disk, s.lights[0].radius = 1e-200));
+    EXPECT_PROBLEM("/lights/0", "too large", (s.lights[0].kind = LightKind::rectangle, s.lights[0].width = s.lights[0].height = 1e200));
+    EXPECT_PROBLEM("/lights/0/up", "points nowhere", (s.lights[0].kind = LightKind::rectangle, s.lights[0].up = {}));
+    EXPECT_PROBLEM("/lights/0/direction", "points nowhere", (s.lights[0].kind = LightKind::disk, s.lights[0].direction = {}));
+    EXPECT_PROBLEM("/lights/0/outer_angle", "without extent", (s.lights[0].kind = LightKind::disk, s.lights[0].outer_angle = 1));
+    EXPECT_PROBLEM("/lights/0/falloff", "without extent", (s.lights[0].kind = LightKind::sphere, s.lights[0].falloff = Falloff::none));
+    EXPECT_PROBLEM("/lights/0/range", "without extent", (s.lights[0].kind = LightKind::sphere, s.lights[0].range = 2));
+    EXPECT_TRUE(problems_after([](Scene& s) { s.lights[0].kind = LightKind::sphere, s.lights[0].direction = s.lights[0].up = {}; }).empty());
+    EXPECT_PROBLEM("/environment/image", "not read", (s.environment.emplace().image = "sky.hdr"));
+}
+
+TEST(Light, UpwardIsPerpendicularWhateverItIs) {
+    Light light;
+    light.direction = {0, -2, 0};
+    EXPECT_EQ(upward_of(light), (math::Vec3{0, 0, -1})) << "up is along the axis";
+    light.direction = {0, 0, 3}, light.up = {0, 0, -1};
+    EXPECT_EQ(upward_of(light), (math::Vec3{0, 1, 0}));
+    light.direction = {1, 0, 0}, light.up = {5, 0, 2};
+    EXPECT_EQ(upward_of(light), (math::Vec3{0, 0, 1}));
+}
+
 TEST(Validate, PictureSize) { EXPECT_PROBLEM("/settings", "larger than", s.settings.width = s.settings.height = 65536); }
 
 TEST(Validate, SolidShapes) {

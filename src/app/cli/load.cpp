@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/overrides.h"
+#include "io/panorama_file.h"
 #include "scene/studio.h"
 #include "scene/validate.h"
 
@@ -16,7 +17,7 @@ bool emits(const scene::Material& material) {
 
 // Whether something in the scene lights it.
 bool lit(const scene::Scene& scene) {
-    if (!scene.lights.empty() || (scene.environment && scene.environment->strength > 0)) return true;
+    if (!scene.lights.empty() || (scene.environment && scene.environment->lights())) return true;
     return std::any_of(scene.materials.begin(), scene.materials.end(), emits);
 }
 
@@ -37,13 +38,13 @@ bool concerns_settings_together(const Problem& problem) { return problem.place =
 // Camera, lights and ground for what has none.
 Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
     if (const auto placed = place_camera(request.view, scene); !placed) return placed;
-    if (!scene.camera || (request.studio && !lit(scene))) {
+    if (!scene.camera || request.asked_studio || (request.studio && !lit(scene))) {
         if (const auto box = scene::bounds(scene); !scene::can_be_framed(box)) {
             const char* reason = box.empty() ? "the scene is empty: there is nothing to frame" : "the scene is too large to be framed or lit";
             return failure(ErrorKind::input, {request.file, "", reason, ""});
         }
         if (request.studio) {
-            scene::add_studio(scene);
+            scene::add_studio(scene, request.asked_studio);
         } else {
             scene::Scene framed = scene;  // the camera of the studio without its lights
             scene::add_studio(framed);
@@ -62,6 +63,13 @@ Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& op
     scene::Scene& scene = loaded->scene;
 
     for (const auto& [field, value] : request.settings) field->set(scene.settings, value);
+    if (request.environment) {
+        if (!scene.environment) scene.environment.emplace();
+        scene.environment->image = *request.environment;
+        auto warnings = io::load_panorama(*scene.environment, {});
+        if (!warnings) return tl::unexpected<Error>(std::move(warnings.error()));
+        loaded->warnings.insert(loaded->warnings.end(), warnings->begin(), warnings->end());
+    }
     if (const auto applied = apply_overrides(request.overrides, scene); !applied) return tl::unexpected<Error>(applied.error());
 
     if (auto problems = scene::validate(scene, request.file); !problems.empty()) {

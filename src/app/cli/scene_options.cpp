@@ -101,6 +101,12 @@ struct Reader {
     }
 };
 
+std::string studio_list() {
+    std::string list;
+    for (const std::string_view name : scene::studio_names) list += (list.empty() ? "" : ", ") + std::string(name);
+    return list;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
@@ -115,8 +121,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--camera", options.camera, "px,py,pz,tx,ty,tz in the file's unit, or a view: " + view_names())->option_text("VIEW");
     command.add_option("--fov", options.field_of_view, "Vertical field of view")->option_text("DEGREES");
     command.add_flag("--orthographic", options.orthographic, "Parallel projection");
+    command.add_option("--environment", options.environment, "Equirectangular picture that surrounds and lights the scene, such as sky.hdr")->option_text("FILE");
     command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
         ->option_text("PATH=VALUE")->expected(1)->take_all();
+    command.add_option("--studio", options.studio, "Lights and ground that fit the model, whatever light it has: " + studio_list())->option_text("NAME");
     command.add_flag("--no-studio", options.no_studio, "Add no lights and ground to a bare model");
     command.add_flag("--no-cache", options.no_cache, "Read a CAD file anew, and keep nothing of it");
     command.add_flag("-v,--verbose", options.verbose, "Tell what the libraries that read the file have to say");
@@ -139,11 +147,22 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
     if (options.memory) {
         if (const auto bytes = parse_bytes("--memory", *options.memory); reader.keep(bytes)) reader.set_integer("--memory", "memory", *bytes);
     }
+    if (options.studio) {
+        const auto found = std::find(std::begin(scene::studio_names), std::end(scene::studio_names), *options.studio);
+        if (found != std::end(scene::studio_names)) {
+            reader.request.asked_studio = static_cast<scene::Studio>(found - std::begin(scene::studio_names));
+        } else {
+            const std::vector<std::string> known(std::begin(scene::studio_names), std::end(scene::studio_names));
+            reader.problems.push_back({"", "--studio", "there is no studio '" + *options.studio + "'", spelling_hint(*options.studio, known)});
+        }
+        if (options.no_studio) reader.problems.push_back({"", "--studio", "and --no-studio cannot be together", ""});
+    }
     if (auto view = parse_view(options.camera, options.field_of_view, options.orthographic); reader.keep(view)) {
         reader.request.view = std::move(*view);
     }
     if (!reader.problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(reader.problems)});
     reader.request.file = options.file;
+    reader.request.environment = options.environment;
     reader.request.overrides = options.overrides;
     reader.request.studio = !options.no_studio;
     reader.request.cache = !options.no_cache;

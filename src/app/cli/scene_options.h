@@ -10,7 +10,7 @@
 
 #include "app/cli/view.h"
 #include "base/error.h"
-#include "scene/scene.h"
+#include "scene/studio.h"
 
 namespace crescente::app {
 
@@ -19,9 +19,10 @@ struct SceneOptions {
     std::string file;
     std::map<std::string, std::optional<std::string>> settings;  // field of scene::Settings -> value
     std::optional<std::string> size, memory, supersampling;
-    std::optional<std::string> camera, field_of_view;
+    std::optional<std::string> camera, field_of_view, environment;
     bool orthographic = false;
     std::vector<std::string> overrides;  // --set path=value
+    std::optional<std::string> studio;
     bool no_studio = false, no_cache = false, verbose = false;
 };
 
@@ -33,7 +34,9 @@ struct SceneRequest {
     std::string file;
     std::vector<std::pair<const Field<scene::Settings>*, FieldValue>> settings;
     View view;
+    std::optional<std::string> environment;  // a picture's file
     std::vector<std::string> overrides;
+    std::optional<scene::Studio> asked_studio;
     bool studio = true, cache = true, verbose = false;
 };
 

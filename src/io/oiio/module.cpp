@@ -1,9 +1,10 @@
-// Encodes pictures with OpenImageIO, into memory: writing the file safely is the program's matter.
+// Encodes and decodes pictures with OpenImageIO, in memory: reading and writing files safely is the program's matter.
 #include "io/oiio/module.h"
 
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -40,6 +41,14 @@ public:
 
     bool open() const { return descriptor_ >= 0; }
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    bool write(const char* bytes, std::size_t size) const {
+        for (std::size_t at = 0; at < size;) {
+            const ssize_t n = pwrite(descriptor_, bytes + at, size - at, static_cast<off_t>(at));
+            if (n <= 0) return false;
+            at += static_cast<std::size_t>(n);
+        }
+        return true;
+    }
     bool read(std::string& bytes) const {
         const off_t size = lseek(descriptor_, 0, SEEK_END);
         if (size < 0) return false;
@@ -68,11 +77,45 @@ std::string encode(const CrescenteEncodeRequest& request, std::string& bytes) {
     return memory.read(bytes) ? std::string{} : std::string("the file in memory cannot be read: ") + std::strerror(errno);
 }
 
+std::string decode(const CrescenteDecodeRequest& request) {
+    const MemoryFile memory;
+    if (!memory.open() || !memory.write(request.bytes, request.size)) return std::string("no file in memory: ") + std::strerror(errno);
+    OIIO::ImageSpec raw;  // alpha as the file has it, not multiplied in
+    raw.attribute("oiio:UnassociatedAlpha", 1);
+    const auto input = OIIO::ImageInput::open(memory.path(), &raw);
+    if (!input) {
+        OIIO::geterror();  // which is about the path
+        return "is no picture that OpenImageIO knows, or damaged";
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) return "is no flat picture";
+    const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
+    if (static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) > request.most_pixels) {
+        return "has " + size + " pixels, more than " + std::to_string(request.most_pixels);
+    }
+    if (spec.nchannels > 4) return "has " + std::to_string(spec.nchannels) + " channels, more than 4";
+    const int bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : spec.format == OIIO::TypeDesc::UINT16 ? 16 : 32;
+    const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+    const int width = spec.width, height = spec.height, channels = spec.nchannels;
+    std::vector<char> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels) * static_cast<std::size_t>(bits / 8));
+    if (!input->read_image(0, 0, 0, channels, type, pixels.data())) return "is damaged: " + input->geterror();
+    request.take(request.user, width, height, channels, bits, pixels.data());
+    return {};
+}
+
+// Threads of OpenEXR would be missing in copies of the process (io/isolated.h), which would wait for them for ever. (The attribute "threads" of OpenImageIO
+// is left alone: it holds for all of oneTBB, and so for the whole program.)
+void use_no_threads() {
+    static const bool done = OIIO::attribute("exr_threads", -1);  // -1: none
+    static_cast<void>(done);
+}
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) int crescente_oiio_encode(const CrescenteEncodeRequest* request) {
     std::string error;
     try {
+        use_no_threads();
         if (request->version != crescente_oiio_version) {
             request->fail(request->user, "the module crescente_openimageio is of another version");
             return 0;
@@ -83,6 +126,19 @@ extern "C" __attribute__((visibility("default"))) int crescente_oiio_encode(cons
             request->take(request->user, bytes.data(), bytes.size());
             return 1;
         }
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    request->fail(request->user, error.c_str());
+    return 0;
+}
+
+extern "C" __attribute__((visibility("default"))) int crescente_oiio_decode(const CrescenteDecodeRequest* request) {
+    std::string error;
+    try {
+        use_no_threads();
+        error = request->version == crescente_oiio_version ? decode(*request) : "the module crescente_openimageio is of another version";
+        if (error.empty()) return 1;
     } catch (const std::exception& e) {
         error = e.what();
     }
