@@ -55,6 +55,7 @@ private:
             if (change_.lobes[i].light) same = same_but_for_emission(before_.lobes[i], now_.lobes[i]);
         }
         bool same_lights = before_.lights.size() == now_.lights.size();
+        same = same && same_lights;
         for (std::size_t l = 0; same_lights && l < now_.lights.size(); ++l) {
             if (now_.lights[l].has_extent()) same_lights = before_.lights[l].source() == now_.lights[l].source();
             else same = same && change_.lights[l] == LightChange::none;

@@ -28,7 +28,8 @@ constexpr std::size_t longest_head = 1 << 20;  // bytes
 constexpr std::size_t longest_note = 1 << 16;
 
 constexpr const char* picture_settings[] = {"width", "height", "tile"};
-constexpr const char* growth_settings[] = {"level", "threshold", "depth", "supersampling", "contrast", "subpixel_shortcut"};
+constexpr const char* growth_settings[] = {"level", "threshold", "depth", "supersampling", "contrast", "subpixel_shortcut",
+                                           "noise",  "samples",   "caustics", "exposure"};
 
 const Field<scene::Settings>& setting(std::string_view name) {
     for (const auto& field : scene::Settings::fields()) {
@@ -47,11 +48,11 @@ void for_each_tree_setting(Visit&& visit) {
 template <class Archive>
 void tree_setting(Archive& a, scene::Settings& settings, const Field<scene::Settings>& field) {
     const FieldValue held = field.get(settings);
-    const bool whole = std::holds_alternative<std::int64_t>(held);
-    double number = whole ? static_cast<double>(std::get<std::int64_t>(held)) : std::get<double>(held);
+    const bool whole = std::holds_alternative<std::int64_t>(held), either = std::holds_alternative<bool>(held);
+    double number = whole ? static_cast<double>(std::get<std::int64_t>(held)) : either ? double(std::get<bool>(held)) : std::get<double>(held);
     value(a, number);
-    if (!(number >= field.info.minimum && number <= field.info.maximum) || (whole && number != std::floor(number))) a.fail();
-    if (a.good()) field.set(settings, whole ? FieldValue{static_cast<std::int64_t>(number)} : FieldValue{number});
+    if (!(number >= field.info.minimum && number <= field.info.maximum) || ((whole || either) && number != std::floor(number))) a.fail();
+    if (a.good()) field.set(settings, whole ? FieldValue{static_cast<std::int64_t>(number)} : either ? FieldValue{number != 0} : FieldValue{number});
 }
 
 template <class Archive>

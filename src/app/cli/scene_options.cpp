@@ -17,9 +17,11 @@ struct SettingOption {
     const char* doc;
 };
 constexpr SettingOption setting_options[] = {
-    {"--level", "level", "LEVEL", "How far realism grows: visible, shadows, reflections, edges, or 0 to 3"},
+    {"--level", "level", "LEVEL", "How far realism grows: visible, shadows, reflections, edges, soft, indirect, or 0 to 5"},
     {"--threads", "threads", "N", "Threads; 0: one for each core"},
     {"--depth", "depth", "N", "Most bounces of a ray"},
+    {"--noise", "noise", "X", "Levels soft and indirect: error, relative to the brightness, down to which light is sampled"},
+    {"--samples", "samples", "N", "Levels soft and indirect: most samples of a point"},
     {"--threshold", "threshold", "X", "Rays of less influence on their pixel are not followed, 0 to 1"},
     {"--contrast", "contrast", "X", "Difference of corners that splits a pixel, 0 to 1"},
     {"--accel", "accelerator", "NAME", "How rays find objects: embree, kay-kajiya or linear"},
