@@ -101,6 +101,25 @@ TEST_F(Render, EnvironmentLightsABareModel) {
     EXPECT_TRUE(contains(absent.err, "absent.hdr")) << absent.err;
 }
 
+TEST_F(Render, DaylightByAnglesOrByTimeAndPlace) {
+    const std::string model = (scenes / "2CylinderEngine.glb").string();
+    const auto render = [&](const char* name, const char* sky) {
+        const Outcome outcome = crescente({"render", model, "-o", path(name), "--size", "60x40", "--sky", sky, "-q"});
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return read_png(path(name)).rgb;
+    };
+    const auto noon = render("noon.png", "180,50"), evening = render("evening.png", "290,6"), there = render("there.png", "2024-06-21T12:36,38.72,-9.14,4");
+    EXPECT_FALSE(noon.empty());
+    EXPECT_NE(noon, evening);
+    EXPECT_NE(noon, there);
+    for (const auto& [sky, said] : {std::pair{"10", "no place of the sun"}, {"0,-5", "-5.0 degrees, below the horizon"}, {"2024-02-30T12:00,0,0", "no date"}, {"0,45,99", "turbidity"},
+                                    {"2024-06-21T12:00,95,0", "latitude"}, {"2024-12-21T12:00,80,0", "below the horizon"}}) {
+        const Outcome outcome = crescente({"render", model, "-o", path("a.png"), "--sky", sky});
+        EXPECT_EQ(outcome.code, 2) << sky;
+        EXPECT_TRUE(contains(outcome.err, said)) << outcome.err;
+    }
+}
+
 TEST_F(Render, NamedViewsDiffer) {
     std::vector<std::string> pictures;
     for (const char* view : {"front", "back", "left", "right", "top", "bottom", "iso"}) {

@@ -35,14 +35,24 @@ Expected<void> apply_overrides(const std::vector<std::string>& overrides, scene:
 // Each option is in range by itself: what is wrong with the settings as a whole (a picture of too many pixels) comes of their combination.
 bool concerns_settings_together(const Problem& problem) { return problem.place == "/settings"; }
 
-// Camera, lights and ground for what has none.
+// Whether camera and lights can be fitted to the scene.
+Expected<void> check_extent(const SceneRequest& request, const scene::Scene& scene) {
+    const auto box = scene::bounds(scene);
+    if (scene::can_be_framed(box)) return {};
+    const char* reason = box.empty() ? "the scene is empty: there is nothing to frame" : "the scene is too large to be framed or lit";
+    return failure(ErrorKind::input, {request.file, "", reason, ""});
+}
+
+// Daylight, if it is asked for; camera, lights and ground for what has none.
 Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
+    if (request.daylight) {
+        if (const auto fits = check_extent(request, scene); !fits) return fits;
+        const auto box = scene::bounds(scene);
+        scene::add_daylight(scene, *request.daylight, box.center(), std::max(length(box.diagonal()) / 2, 1e-9));
+    }
     if (const auto placed = place_camera(request.view, scene); !placed) return placed;
     if (!scene.camera || request.asked_studio || (request.studio && !lit(scene))) {
-        if (const auto box = scene::bounds(scene); !scene::can_be_framed(box)) {
-            const char* reason = box.empty() ? "the scene is empty: there is nothing to frame" : "the scene is too large to be framed or lit";
-            return failure(ErrorKind::input, {request.file, "", reason, ""});
-        }
+        if (const auto fits = check_extent(request, scene); !fits) return fits;
         if (request.studio) {
             scene::add_studio(scene, request.asked_studio);
         } else {

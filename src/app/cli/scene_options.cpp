@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/cli/quantities.h"
+#include "app/cli/sky_option.h"
 #include "base/spelling.h"
 
 namespace crescente::app {
@@ -124,6 +125,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--fov", options.field_of_view, "Vertical field of view")->option_text("DEGREES");
     command.add_flag("--orthographic", options.orthographic, "Parallel projection");
     command.add_option("--environment", options.environment, "Equirectangular picture that surrounds and lights the scene, such as sky.hdr")->option_text("FILE");
+    command.add_option("--sky", options.sky, "Clear sky and sun: azimuth,elevation or 2024-06-21T14:30,latitude,longitude (universal time), and ,turbidity")->option_text("SUN");
     command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
         ->option_text("PATH=VALUE")->expected(1)->take_all();
     command.add_option("--studio", options.studio, "Lights and ground that fit the model, whatever light it has: " + studio_list())->option_text("NAME");
@@ -148,6 +150,10 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
     }
     if (options.memory) {
         if (const auto bytes = parse_bytes("--memory", *options.memory); reader.keep(bytes)) reader.set_integer("--memory", "memory", *bytes);
+    }
+    if (options.sky) {
+        if (const auto daylight = parse_sky("--sky", *options.sky); reader.keep(daylight)) reader.request.daylight = *daylight;
+        if (options.environment) reader.problems.push_back({"", "--sky", "and --environment cannot be together", ""});
     }
     if (options.studio) {
         const auto found = std::find(std::begin(scene::studio_names), std::end(scene::studio_names), *options.studio);

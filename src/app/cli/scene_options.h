@@ -10,6 +10,7 @@
 
 #include "app/cli/view.h"
 #include "base/error.h"
+#include "scene/sky.h"
 #include "scene/studio.h"
 
 namespace crescente::app {
@@ -19,7 +20,7 @@ struct SceneOptions {
     std::string file;
     std::map<std::string, std::optional<std::string>> settings;  // field of scene::Settings -> value
     std::optional<std::string> size, memory, supersampling;
-    std::optional<std::string> camera, field_of_view, environment;
+    std::optional<std::string> camera, field_of_view, environment, sky;
     bool orthographic = false;
     std::vector<std::string> overrides;  // --set path=value
     std::optional<std::string> studio;
@@ -35,6 +36,7 @@ struct SceneRequest {
     std::vector<std::pair<const Field<scene::Settings>*, FieldValue>> settings;
     View view;
     std::optional<std::string> environment;  // a picture's file
+    std::optional<scene::Daylight> daylight;
     std::vector<std::string> overrides;
     std::optional<scene::Studio> asked_studio;
     bool studio = true, cache = true, verbose = false;
