@@ -35,6 +35,13 @@ Rgb reflect_environment(const scene::Environment& e, const Lobes& lobes, Vec3 no
             result += reflectance * blurred * mix(environment_radiance(e, mirrored), environment_irradiance(e, mirrored), lobes.roughness);
         }
     }
+    if (lobes.coat > 0 && !inside) {
+        const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
+        const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
+        const auto reflectance = static_cast<float>(coat_reflectance(lobes, cosine));
+        const Rgb blurred = mix(environment_radiance(e, mirrored), environment_irradiance(e, mirrored), std::sqrt(lobes.coat_alpha));
+        result = result * (1 - reflectance) + blurred * (reflectance * (1 - lobes.coat_mirror_share));
+    }
     return result * static_cast<float>(e.strength);
 }
 
