@@ -2,6 +2,7 @@
 #include "render/bsdf.h"
 
 #include "render/scenes.h"
+#include "scene/material_library.h"
 
 namespace crescente::render::testing {
 namespace {
@@ -77,7 +78,7 @@ void for_each_draw(int n, const std::function<void(std::array<double, 3>)>& draw
 
 // What comes back from a furnace where light of strength 1 is everywhere.
 double furnace(const Lobes& lobes, double theta, bool inside) {
-    constexpr int n = 10000;
+    constexpr int n = 8000;
     double sum = 0;
     for_each_draw(n, [&](std::array<double, 3> u) {
         if (const auto s = sample_scatter(lobes, {up, up, {}, inside}, direction(theta, 0.4), u, true)) sum += (s->value.diffuse.g + s->value.glossy.g) / s->value.pdf;
@@ -105,6 +106,15 @@ TEST(Bsdf, RoughMetalAndGlassLoseNothing) {
             for (const double ior : {1.2, 1.5, 2.4}) {
                 for (const bool inside : {false, true}) EXPECT_GE(furnace(physical("", one, 0, roughness, 1, 1, ior).lobes, view, inside), 0.98) << roughness << " " << view << " " << ior << inside;
             }
+        }
+    }
+}
+
+TEST(Bsdf, TheLibraryAddsNoLight) {
+    for (const scene::LibraryMaterial& m : scene::material_library()) {
+        const Lobes lobes = compile({m.name, m.material});
+        for (const double view : {0.01, 0.9, 1.4}) {
+            for (int side = 0; side < (m.material.transmission > 0 ? 2 : 1); ++side) EXPECT_LE(furnace(lobes, view, side == 1), 1.006) << m.name << " " << view;
         }
     }
 }
