@@ -306,6 +306,13 @@ private:
         return found ? std::optional(scene::ShapeId{*found}) : std::nullopt;
     }
     std::optional<scene::MaterialId> material(const Json& json, const Place& place, ProblemList&) override {
+        if (json.object()) {
+            const scene::Material own = read_own_material(json, measure_, place, problems_);
+            for (std::uint32_t i = 0; i < draft_.materials.size(); ++i) {
+                if (draft_.materials[i].name == own.name && draft_.materials[i].model == own.model) return scene::MaterialId{i};
+            }
+            return scene::MaterialId{draft_.materials.add(own)};
+        }
         const auto found = find_thing(draft_.materials, "material", json, place);
         return found ? std::optional(scene::MaterialId{*found}) : std::nullopt;
     }

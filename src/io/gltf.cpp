@@ -21,7 +21,7 @@ const std::vector<std::string> known_extensions{
     "KHR_lights_punctual",        "KHR_materials_emissive_strength", "KHR_materials_ior",
     "KHR_materials_transmission", "KHR_materials_volume",            "KHR_materials_unlit",
     "KHR_mesh_quantization",      "EXT_mesh_gpu_instancing",         "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_transform",      "KHR_materials_variants",
+    "KHR_texture_transform",      "KHR_materials_variants",          "KHR_materials_clearcoat",
 };
 
 bool is_known(const std::string& extension) {

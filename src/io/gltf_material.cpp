@@ -75,6 +75,12 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
     m.transmission = document_.number(transmission, place, "transmissionFactor", 0);
     if (const auto texture = mean(transmission, place, "transmissionTexture")) m.transmission *= texture->data[0];
 
+    const Json& clearcoat = extension("KHR_materials_clearcoat");
+    m.clearcoat = document_.number(clearcoat, place, "clearcoatFactor", 0);
+    m.clearcoat_roughness = document_.number(clearcoat, place, "clearcoatRoughnessFactor", 0);
+    if (const auto texture = mean(clearcoat, place, "clearcoatTexture")) m.clearcoat *= texture->data[0];
+    if (const auto texture = mean(clearcoat, place, "clearcoatRoughnessTexture")) m.clearcoat_roughness *= texture->data[1];
+
     const Json& volume = extension("KHR_materials_volume");
     const double distance = document_.number(volume, place, "attenuationDistance", 0);  // absent: infinite
     if (distance > 0) {

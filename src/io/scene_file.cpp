@@ -218,6 +218,13 @@ private:
         return found ? std::optional(scene::ShapeId{*found}) : std::nullopt;
     }
     std::optional<scene::MaterialId> material(const Json& json, const Place& place, ProblemList& problems) override {
+        if (json.object()) {
+            const scene::Material own = read_own_material(json, measure_, place, problems);
+            auto& all = scene().materials;
+            auto same = std::find_if(all.begin(), all.end(), [&own](const scene::Material& m) { return m.name == own.name && m.model == own.model; });
+            if (same == all.end()) same = all.insert(all.end(), own);
+            return scene::MaterialId{static_cast<std::uint32_t>(same - all.begin())};
+        }
         const auto found = materials_.find(json, place, problems);
         return found ? std::optional(scene::MaterialId{*found}) : std::nullopt;
     }

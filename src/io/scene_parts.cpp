@@ -5,6 +5,7 @@
 #include "base/spelling.h"
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
+#include "scene/material_library.h"
 
 namespace crescente::io {
 namespace {
@@ -251,9 +252,17 @@ std::optional<Shape> read_shape(const Json& json, const Measure& measure, const 
     return shape;
 }
 
+std::optional<scene::PhysicalMaterial> read_library_material(const Json& json, const Place& place, ProblemList& problems) {
+    if (!json.text()) return must_be(json, place, "a text", problems), std::nullopt;
+    if (const scene::LibraryMaterial* found = scene::find_in_library(*json.text())) return found->material;
+    const std::string hint = spelling_hint(*json.text(), scene::library_names());
+    problems.add(json, place, "there is no material '" + json.text()->substr(0, 100) + "' in the library", hint.empty() ? "see crescente materials" : hint);
+    return std::nullopt;
+}
+
 scene::Material read_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems) {
     scene::Material material;
-    const std::string own[] = {name_word().name, model_word().name};
+    const std::string own[] = {name_word().name, model_word().name, library_word().name};
     const std::vector<std::string> models{"physical", "classic"};
     if (const Json* model = json.find(own[1])) {
         if (!model->text()) must_be(*model, place / own[1], "a text", problems);
@@ -263,9 +272,25 @@ scene::Material read_material(const Json& json, const Measure& measure, const Pl
             return material;  // its fields would all be unknown to the wrong model
         }
     }
+    if (const Json* library = json.find(own[2])) {
+        const auto found = read_library_material(*library, place / own[2], problems);
+        auto* physical = std::get_if<scene::PhysicalMaterial>(&material.model);
+        if (!physical) problems.add(*library, place / own[2], "a classic material is not in the library");
+        else if (found) *physical = *found;
+    }
     std::visit([&](auto& m) {
         read_fields(json, m, std::remove_cvref_t<decltype(m)>::fields(), measure, place, problems, own);
     }, material.model);
+    return material;
+}
+
+scene::Material read_own_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems) {
+    scene::Material material = read_material(json, measure, place, problems);
+    const Json* library = json.find(library_word().name);
+    const Json* name = json.find(name_word().name);
+    if (name && !name->text()) must_be(*name, place / name_word().name, "a text", problems);
+    else if (name) material.name = *name->text();
+    else if (library && library->text()) material.name = *library->text();
     return material;
 }
 

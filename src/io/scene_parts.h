@@ -9,8 +9,14 @@ namespace crescente::io {
 // {"sphere": {"radius": 1}}. Nothing if the kind is wrong; wrong fields are told and left at their defaults.
 std::optional<geometry::Shape> read_shape(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
 
-// {"model": "classic", ...}. The name is the caller's.
+// The name of a material in the library.
+std::optional<scene::PhysicalMaterial> read_library_material(const Json& json, const Place& place, ProblemList& problems);
+
+// {"model": "classic", ...} or {"library": "gold satin", ...}. The name is the caller's.
 scene::Material read_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
+
+// The same where an object names its material: with the name that it says, or that of the library.
+scene::Material read_own_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
 
 // A step or a list of steps, the first applied first.
 math::Affine read_transform(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);

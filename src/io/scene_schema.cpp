@@ -4,6 +4,7 @@
 #include "io/json_print.h"
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
+#include "scene/material_library.h"
 #include "scene/scene.h"
 
 namespace crescente::io {
@@ -47,6 +48,7 @@ ordered_json schema_with_name(const FieldTable<Owner>& table) {
 ordered_json material_schema() {
     ordered_json physical = schema_with_name(scene::PhysicalMaterial::fields());
     physical["properties"][model_word().name] = {{"description", model_word().doc}, {"const", "physical"}};
+    physical["properties"][library_word().name] = {{"description", library_word().doc}, {"enum", scene::library_names()}};
     ordered_json classic = schema_with_name(scene::ClassicMaterial::fields());
     classic["properties"][model_word().name] = {{"description", model_word().doc}, {"const", "classic"}};
     classic["required"] = {model_word().name};
@@ -121,8 +123,8 @@ ordered_json transform_schema() {
 ordered_json object_schema() {
     return object_with(object_words(), {{"name", text()},
                                         {"shape", {{"anyOf", {text(), ref("shape")}}}},
-                                        {"material", text()},
-                                        {"materials", list_of(text())},
+                                        {"material", {{"anyOf", {text(), ref("material")}}}},
+                                        {"materials", list_of({{"anyOf", {text(), ref("material")}}})},
                                         {"transform", ref("transform")},
                                         {"instance", text()},
                                         {"file", text()},
@@ -210,6 +212,7 @@ once, each with its line and its JSON pointer, and the nearest spelling.
 * **Colours** are `[r, g, b]` in linear light (Rec. 709 primaries), one number for grey, or `"#rrggbb"` as on the web (sRGB).
 * **By name, or a list**: `{"key": {...}, "fill": {...}}` or `[{"name": "key", ...}, ...]`. References go by the key; a thing may bear another `name` than
   its key. In a list it goes by its `name`.
+* **A material of the [library](materials.md)** is `{"library": "gold satin"}`, among the scene's materials or at the object itself.
 * **Materials** that an object does not name come from the nearest object above that names some.
 
 )";
@@ -255,7 +258,8 @@ std::string scene_reference() {
     out += "\n## Camera\n\n" + field_table(scene::Camera::fields());
     out += "\n## Environment\n\n" + field_table(scene::Environment::fields());
     out += "\n## Lights\n\n" + field_table(scene::Light::fields());
-    out += "\n## Materials\n\n" + word_table({&model_word(), 1});
+    const Word own[] = {model_word(), library_word()};
+    out += "\n## Materials\n\n" + word_table(own);
     out += "\n### Physical\n\n" + field_table(scene::PhysicalMaterial::fields());
     out += "\n### Classic\n\n" + field_table(scene::ClassicMaterial::fields());
     out += "\n## Shapes\n\nA shape is an object with one member, its kind: `{\"sphere\": {\"radius\": 1}}`.\n";

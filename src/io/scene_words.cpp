@@ -24,8 +24,8 @@ std::span<const Word> object_words() {
     static const std::vector<Word> words{
         {"name", "text", "Name of the object, where it is not the key"},
         {"shape", "name of a shape, or a shape", "What is seen"},
-        {"material", "name of a material", "For the shape and for everything below that names none; with `file`, replaces the file's own materials"},
-        {"materials", "list of names", "The same for shapes with several material slots, in the order of the slots; the last serves the rest"},
+        {"material", "name of a material, or a material", "For the shape and for everything below that names none; with `file`, replaces the file's own materials"},
+        {"materials", "list of names or materials", "The same for shapes with several material slots, in the order of the slots; the last serves the rest"},
         {"transform", "step, or list of steps", "From the object's space to its parent's, the first step first"},
         {"instance", "name of a group", "Shows the group here: shared, not copied"},
         {"file", "path", "Shows a model file here, of any known format; relative to this file. Of a scene file its objects only"},
@@ -77,6 +77,11 @@ const Word& name_word() {
 
 const Word& model_word() {
     static const Word word{"model", "\"physical\" or \"classic\"", "Which kind of material; \"physical\" if left out"};
+    return word;
+}
+
+const Word& library_word() {
+    static const Word word{"library", "name in the library", "A [material of the library](materials.md), with what else is said changed; physical"};
     return word;
 }
 

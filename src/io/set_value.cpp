@@ -2,6 +2,8 @@
 
 #include "io/panorama_file.h"
 #include "io/scene_names.h"
+#include "io/scene_parts.h"
+#include "io/scene_words.h"
 
 namespace crescente::io {
 namespace {
@@ -65,6 +67,11 @@ private:
     }
     bool set_in(scene::Light& light) { return set_field(light); }
     bool set_in(scene::Material& material) {
+        if (path_.field == library_word().name) {
+            const auto found = read_library_material(value_, place_, problems_);
+            if (found) material.model = *found;
+            return found.has_value();
+        }
         return std::visit([&](auto& model) { return set_field(model); }, material.model);
     }
     bool set_in(scene::NamedShape& shape) {

@@ -13,11 +13,14 @@ double mean(Rgb c) { return (double(c.r) + c.g + c.b) / 3; }
 double power(double base, double exponent) { return exponent == 0 ? 1 : std::pow(std::max(0.0, base), exponent); }
 
 // The lobes that a direction is drawn from, in the order in which the first number chooses.
-enum Lobe : std::uint8_t { diffuse, rough, multiple, glass_multiple, through, highlight, mirror, refraction, straight, lobe_count };
+enum Lobe : std::uint8_t { diffuse, rough, coated, multiple, glass_multiple, through, highlight, mirror, refraction, straight, lobe_count };
+
+// What becomes of perfectly smooth lobes: nothing, rays, or highlights of the smallest size.
+enum class SmoothAs : std::uint8_t { nothing, rays, highlights };
 
 class Scattering {
 public:
-    Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, bool with_smooth);
+    Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, SmoothAs smooth_as);
 
     bool seen() const { return v_.z > 0 && dot(facing_.geometric, viewer_) > 0; }
     Scattered toward(Vec3 to_light) const;
@@ -39,6 +42,7 @@ private:
     void add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const;
     void add_facets(Vec3 l, Scattered& sum) const;
     void add_multiple(double cosine, Scattered& sum) const;
+    void under_coat(Vec3 l, Scattered& sum) const;
     void add_highlight(Vec3 l, Scattered& sum) const;
     double highlight_scale() const;
 
@@ -49,12 +53,13 @@ private:
     std::size_t side_;  // of a glass: that of the viewer, outer or inner
     Smooth smooth_;
     ChildWeights rays_;
-    Microfacets facets_;
+    Microfacets facets_, coat_facets_;
+    bool mirror_base_ = false, mirror_coat_ = false;  // perfectly smooth, and not shown as highlights
     double chances_[lobe_count] = {};
 };
 
-Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, bool with_smooth)
-    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), side_(facing.inside), smooth_(smooth_lobes(lobes)), facets_{lobes.alpha, lobes.alpha} {
+Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, SmoothAs smooth_as)
+    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), side_(facing.inside), smooth_(smooth_lobes(lobes)), facets_{lobes.alpha, lobes.alpha}, coat_facets_{lobes.coat_alpha, lobes.coat_alpha} {
     const Vec3 along = facing.tangent - facing.shading * dot(facing.tangent, facing.shading);
     const double size = length(along);
     t_ = size > 1e-9 ? along / size : perpendicular(facing.shading);
@@ -62,16 +67,18 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
     v_ = local(to_viewer);
     if (!seen()) return;
     v_.z = std::min(v_.z, 1.0);
+    mirror_base_ = lobes.smooth() && smooth_as != SmoothAs::highlights;
+    mirror_coat_ = lobes.coat_is_smooth() && smooth_as != SmoothAs::highlights;
     rays_ = smooth_weights(lobes, v_.z, facing.inside);
 
     double weights[lobe_count] = {};
     weights[diffuse] = mean(lobes.ambient_diffuse) * (lobes.layered() ? 1 - layer_over_diffuse(v_.z) : 1);
-    if (lobes.layered() && !smooth_.reflects) {
+    if (lobes.layered() && !mirror_base_) {
         const SplitSum sum = split_sum(lobes.sums, v_.z);
         weights[multiple] = mean(lobes.multiple) * sum.missing();
         weights[rough] = mean(lobes.highlight) * sum.scale + double(lobes.coverage) * sum.bias;
     }
-    if (lobes.transmits() && !smooth_.reflects) {
+    if (lobes.transmits() && !mirror_base_) {
         const FacetColors f = facet(v_.z);
         weights[rough] = mean(f.reflected) + mean(f.transmitted);
         if (!smooth_.refracts) {
@@ -80,11 +87,16 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
             weights[through] = mean(lobes.refraction) * missing * crosses;
         }
     }
+    if (lobes.coat > 0 && !facing.inside) {
+        const double kept = coat_reflectance(lobes, v_.z);
+        for (double& weight : weights) weight *= 1 - kept;
+        if (!mirror_coat_) weights[coated] = kept;
+    }
     if (!lobes.layered() && lobes.highlight_lobe != HighlightLobe::none) {
         const double most = lobes.highlight_lobe == HighlightLobe::phong ? 2 : 8;
         weights[highlight] = mean(lobes.highlight) * std::min(1.0, most / (lobes.exponent + 1));
     }
-    if (with_smooth) weights[mirror] = mean(rays_.reflected), weights[refraction] = mean(rays_.refracted), weights[straight] = mean(lobes.straight);
+    if (smooth_as == SmoothAs::rays) weights[mirror] = mean(rays_.reflected), weights[refraction] = mean(rays_.refracted), weights[straight] = mean(lobes.straight);
     double sum = 0;
     for (const double w : weights) sum += w;
     for (int i = 0; sum > 0 && i < lobe_count; ++i) chances_[i] = weights[i] / sum;
@@ -95,10 +107,10 @@ Scattering::FacetColors Scattering::facet(double cosine) const {
     FacetColors f;
     if (lobes_.transmits()) {
         const double fresnel = fresnel_dielectric(cosine, eta_);
-        f.reflected = lobes_.mirror * static_cast<float>(fresnel) + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing;
+        f.reflected = lobes_.mirror * static_cast<float>(fresnel) + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing + conductor_beyond_schlick(lobes_, cosine);
         if (!smooth_.refracts) f.transmitted = lobes_.refraction * static_cast<float>(1 - fresnel);
     } else {
-        f.reflected = lobes_.highlight + (gray(lobes_.coverage) - lobes_.highlight) * grazing;
+        f.reflected = lobes_.highlight + (gray(lobes_.coverage) - lobes_.highlight) * grazing + conductor_beyond_schlick(lobes_, cosine);
     }
     const double r = mean(f.reflected), t = mean(f.transmitted);
     f.chance_reflected = t == 0 ? 1 : r / (r + t);
@@ -133,6 +145,7 @@ Scattered Scattering::toward(Vec3 to_light) const {
     if (!crosses) add_diffuse(l, to_light, sum), add_highlight(l, sum);
     add_facets(l, sum);
     add_multiple(l.z, sum);
+    if (lobes_.coat > 0) under_coat(l, sum);
     return sum;
 }
 
@@ -191,6 +204,19 @@ void Scattering::add_multiple(double cosine, Scattered& sum) const {
     }
 }
 
+// The coat takes what it reflects, and no more reaches what is below than that leaves, seen from either end; it adds its own reflection.
+void Scattering::under_coat(Vec3 l, Scattered& sum) const {
+    double kept = facing_.inside ? 0 : coat_reflectance(lobes_, v_.z);
+    if (facing_.inside == (l.z < 0)) kept = std::max(kept, coat_reflectance(lobes_, std::min(1.0, std::abs(l.z))));
+    const auto below = static_cast<float>(1 - kept);
+    sum.diffuse *= gray(below), sum.glossy *= gray(below);
+    if (chances_[coated] == 0 || l.z <= 0) return;
+    const Vec3 h = normalize(v_ + l);
+    const double v_h = std::clamp(dot(v_, h), 1e-12, 1.0), lobe = coat_facets_.density(h) * coat_facets_.seen_by_both(v_, l) / (4 * v_.z);
+    sum.glossy += schlick(gray(coat_f0), 1, v_h) * static_cast<float>(lobes_.coat * lobe);
+    sum.pdf += chances_[coated] * coat_facets_.density_seen(v_, h) / (4 * v_h);
+}
+
 void Scattering::add_highlight(Vec3 l, Scattered& sum) const {
     if (chances_[highlight] == 0 || l.z <= 0) return;
     const double n = lobes_.exponent;
@@ -227,9 +253,10 @@ std::optional<Vec3> Scattering::draw(Lobe lobe, std::array<double, 3> u) const {
         const Vec3 axis{-v_.x, -v_.y, v_.z}, across = perpendicular(axis);
         return above(across * drawn.x + cross(axis, across) * drawn.y + axis * drawn.z);
     }
-    const Vec3 h = facets_.sample_seen(v_, u[1], u[2]);
+    const Vec3 h = (lobe == coated ? coat_facets_ : facets_).sample_seen(v_, u[1], u[2]);
     const double v_h = std::clamp(dot(v_, h), 0.0, 1.0);
     if (v_h == 0) return std::nullopt;
+    if (lobe == coated) return above(mirrored_in(h));
     // What ends on the other side than it should meets another facet: lost here, and given back by the lobes of multiple scattering.
     if (u[0] < facet(v_h).chance_reflected) return above(mirrored_in(h));
     const double sin2 = (1 - v_h * v_h) / (eta_ * eta_);
@@ -273,18 +300,26 @@ std::optional<ScatterSample> Scattering::sample(std::array<double, 3> u) const {
 Smooth smooth_lobes(const Lobes& lobes) {
     if (!lobes.layered()) return {true, true};
     const bool smooth = lobes.smooth();
-    return {smooth, smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < bends};
+    return {smooth || (lobes.coat > 0 && lobes.coat_is_smooth()), smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < bends};
 }
 
 ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside) {
     if (!lobes.layered()) return child_weights(lobes, cosine, inside);
-    const Smooth smooth = smooth_lobes(lobes);
+    ChildWeights weights;
     if (lobes.transmits()) {
-        const ChildWeights all = child_weights(lobes, cosine, inside);
-        return {smooth.reflects ? all.reflected : Rgb{}, smooth.refracts ? all.refracted : Rgb{}};
+        const auto fresnel = static_cast<float>(fresnel_dielectric(cosine, inside ? 1 / lobes.ior : lobes.ior));
+        if (lobes.smooth()) weights.reflected = lobes.mirror * fresnel + schlick(lobes.metal, lobes.metal_share, cosine) + conductor_beyond_schlick(lobes, cosine);
+        if (smooth_lobes(lobes).refracts) weights.refracted = lobes.refraction * (1 - fresnel);
+    } else {
+        if (lobes.smooth()) weights.reflected = schlick(lobes.highlight, lobes.coverage, cosine) + conductor_beyond_schlick(lobes, cosine);
+        weights.refracted = lobes.refraction;
     }
-    const auto grazing = static_cast<float>(fifth_power(1 - cosine));
-    return {smooth.reflects ? lobes.highlight + (gray(lobes.coverage) - lobes.highlight) * grazing : Rgb{}, lobes.refraction};
+    if (lobes.coat > 0 && !inside) {
+        const auto below = static_cast<float>(1 - coat_reflectance(lobes, cosine));
+        weights = {weights.reflected * below, weights.refracted * below};
+        if (lobes.coat_is_smooth()) weights.reflected += schlick(gray(coat_f0), 1, cosine) * lobes.coat;
+    }
+    return weights;
 }
 
 Vec3 mirrored_direction(const Facing& facing, Vec3 to_viewer) {
@@ -299,11 +334,17 @@ Vec3 refracted_direction(const Facing& facing, Vec3 to_viewer, double eta) {
 }
 
 Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3 to_light, bool with_delta) {
-    return Scattering(lobes, facing, to_viewer, with_delta).toward(to_light);
+    return Scattering(lobes, facing, to_viewer, with_delta ? SmoothAs::rays : SmoothAs::nothing).toward(to_light);
+}
+
+Rgb reflect_composed(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, bool with_highlight) {
+    const Facing facing{normal, normal, {}, false};
+    const Scattered s = Scattering(lobes, facing, to_viewer, SmoothAs::highlights).toward(to_light);
+    return with_highlight ? s.diffuse + s.glossy : s.diffuse;
 }
 
 std::optional<ScatterSample> sample_scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, std::array<double, 3> u, bool with_delta) {
-    return Scattering(lobes, facing, to_viewer, with_delta).sample(u);
+    return Scattering(lobes, facing, to_viewer, with_delta ? SmoothAs::rays : SmoothAs::nothing).sample(u);
 }
 
 }  // namespace crescente::render

@@ -55,6 +55,10 @@ Vec3 refracted_direction(const Facing& facing, Vec3 to_viewer, double eta);  // 
 // (classic lights without extent are given in units of which pi make a lux). with_delta: the density is that of drawing with smooth lobes as well.
 Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3 to_light, bool with_delta = false);
 
+// What a composed physical material (a metal by its constants, a coat) sends to the viewer of a light without extent: as scatter, but smooth lobes as highlights, and
+// without the geometric normal.
+Rgb reflect_composed(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, bool with_highlight);
+
 // A direction drawn about as the material reflects and transmits, from three numbers in [0, 1): the first chooses the lobe, the others the direction. Nothing
 // if there is nothing to draw, or the drawn direction gives nothing.
 std::optional<ScatterSample> sample_scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, std::array<double, 3> u, bool with_delta);

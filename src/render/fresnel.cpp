@@ -28,4 +28,11 @@ Rgb fresnel_conductor(double cosine, Rgb eta, Rgb k) {
             static_cast<float>(fresnel_conductor(cosine, eta.b, k.b))};
 }
 
+Rgb mean_fresnel_conductor(Rgb eta, Rgb k) {
+    constexpr int steps = 64;
+    Rgb sum;
+    for (int i = 0; i < steps; ++i) sum += fresnel_conductor(std::sqrt((i + 0.5) / steps), eta, k);
+    return sum * (1.0f / steps);
+}
+
 }  // namespace crescente::render

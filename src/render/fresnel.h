@@ -19,5 +19,6 @@ double fresnel_dielectric(double cosine, double eta);
 // From air to a metal of the complex index eta + i k.
 double fresnel_conductor(double cosine, double eta, double k);
 Rgb fresnel_conductor(double cosine, Rgb eta, Rgb k);
+Rgb mean_fresnel_conductor(Rgb eta, Rgb k);  // over all light that meets the surface, each direction by its cosine
 
 }  // namespace crescente::render

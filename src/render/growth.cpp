@@ -218,7 +218,7 @@ void Growth::begin_light(PointLanes& p, bool shadows) {
         Node& node = tile_.nodes[p.node[i]];
         const Lobes& lobes = world_.lobes[node.material];
         p.lobes[i] = &lobes;
-        if (lobes.layered()) {
+        if (lobes.layered() && !lobes.composed()) {
             p.physical |= 1u << i;
             const PhysicalView<double> view = physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i)));
             set_lane(p.view, i, view);

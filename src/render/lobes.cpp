@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "render/bsdf.h"
 #include "render/physical_view.h"
 
 namespace crescente::render {
@@ -36,14 +37,13 @@ Lobes compile_classic(const scene::ClassicMaterial& m) {
 }
 
 // Share of the light missing from a rough metal's sums that comes back after two or more reflections between its facets (Kulla and Conty 2017, "Revisiting Physically
-// Based Shading at Imageworks"), f0 rising to 1 by Schlick. kept: mean_of_sums.
-Rgb multiple_reflection(Rgb f0, double kept) {
-    const auto channel = [kept](double f) {
-        const double mean = (20 * f + 1) / 21;
-        return static_cast<float>(mean * mean * kept / (1 - mean * (1 - kept)));
-    };
-    return {channel(f0.r), channel(f0.g), channel(f0.b)};
+// Based Shading at Imageworks"). fresnel: mean over all directions; kept: mean_of_sums.
+Rgb multiple_reflection(Rgb fresnel, double kept) {
+    const auto channel = [kept](double f) { return static_cast<float>(f * f * kept / (1 - f * (1 - kept))); };
+    return {channel(fresnel.r), channel(fresnel.g), channel(fresnel.b)};
 }
+
+Rgb mean_schlick(Rgb f0) { return f0 * (20.0f / 21) + gray(1.0f / 21); }
 
 constexpr double least_missing = 1e-6;  // of a lobe's light, to be asked where it is; beyond rounding
 
@@ -79,19 +79,31 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSu
     const Rgb diffuse = m.base_color * (dielectric * (1 - static_cast<float>(m.transmission)) * opacity);
     lobes.diffuse = diffuse * static_cast<float>(1 / pi);
     lobes.ambient_diffuse = diffuse;
-    lobes.albedo = m.base_color;
+    const bool conductor = metallic > 0 && !is_black(m.k);
+    const Rgb metal_f0 = conductor ? fresnel_conductor(1, m.eta, m.k) : m.base_color;
+    lobes.albedo = conductor ? mix(m.base_color, metal_f0, metallic) : m.base_color;
     lobes.layer_f0 = static_cast<float>(r0 * r0);
-    const Rgb f0 = mix(gray(lobes.layer_f0), m.base_color, metallic) * opacity;
+    const Rgb f0 = mix(gray(lobes.layer_f0), metal_f0, metallic) * opacity;
     lobes.roughness = static_cast<float>(m.roughness);
     lobes.alpha = std::max(smoothest_alpha, lobes.roughness * lobes.roughness);
-    const auto [sums, unknown] = known_sums.try_emplace(lobes.alpha);
-    if (unknown) sums->second = lobes.smooth() ? smooth_split_sums() : split_sums(lobes.alpha);
-    lobes.sums = sums->second;
+    const auto sums_of = [&known_sums](float alpha) -> const SplitSums& {
+        const auto [sums, unknown] = known_sums.try_emplace(alpha);
+        if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_split_sums() : split_sums(alpha);
+        return sums->second;
+    };
+    lobes.sums = sums_of(lobes.alpha);
+    if (conductor) lobes.eta = m.eta, lobes.k = m.k, lobes.conductor_f0 = metal_f0, lobes.conductor = metallic * opacity;
+    if (m.clearcoat > 0) {
+        lobes.coat = static_cast<float>(m.clearcoat) * opacity;
+        lobes.coat_alpha = std::max(smoothest_alpha, static_cast<float>(m.clearcoat_roughness * m.clearcoat_roughness));
+        lobes.coat_mirror_share = mirror_share_of(m.clearcoat_roughness);
+        lobes.coat_sums = sums_of(lobes.coat_alpha);
+    }
     lobes.highlight = f0;
     lobes.highlight_lobe = HighlightLobe::ggx;
     const double kept = mean_of_sums(lobes.sums);
     if (metallic > 0 && 1 - kept > least_missing) {
-        lobes.multiple = multiple_reflection(m.base_color, kept) * (metallic * opacity);
+        lobes.multiple = multiple_reflection(conductor ? mean_fresnel_conductor(m.eta, m.k) : mean_schlick(m.base_color), kept) * (metallic * opacity);
         lobes.multiple_density = static_cast<float>(1 / (pi * (1 - kept)));
         lobes.multiple_cells = missing_cells(lobes.sums);
     }
@@ -100,7 +112,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSu
         lobes.mirror = gray(dielectric * opacity);
         lobes.mirror_share = 1;
         lobes.metal_share = metallic * opacity;
-        lobes.metal = m.base_color * lobes.metal_share;
+        lobes.metal = metal_f0 * lobes.metal_share;
         lobes.refraction = m.base_color * (transmission * opacity);
         lobes.straight = gray(1 - opacity);
         lobes.ior = m.ior;
@@ -134,6 +146,7 @@ std::vector<Lobes> compile(std::span<const scene::Material> materials) {
 Lobes compile(const scene::Material& material) { return compile(std::span(&material, 1)).front(); }
 
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {
+    if (lobes.composed()) return reflect_composed(lobes, normal, to_viewer, to_light, with_highlight);
     if (lobes.layered()) {
         double radiance[3];
         reflect_physical(physical_view(lobes, dot(normal, to_viewer)), cosine, dot(to_viewer, to_light), layer_at(lobes, cosine), with_highlight, radiance);
@@ -150,6 +163,17 @@ Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light
     return result + lobes.highlight * std::pow(static_cast<float>(n_h), lobes.exponent);
 }
 
+double coat_reflectance(const Lobes& lobes, double cosine) {
+    if (lobes.coat == 0) return 0;
+    const SplitSum sum = split_sum(lobes.coat_sums, cosine);
+    return lobes.coat * (double(coat_f0) * sum.scale + sum.bias);
+}
+
+Rgb conductor_beyond_schlick(const Lobes& lobes, double cosine) {
+    if (lobes.conductor == 0) return {};
+    return (fresnel_conductor(cosine, lobes.eta, lobes.k) - schlick(lobes.conductor_f0, 1, cosine)) * lobes.conductor;
+}
+
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {
     if (lobes.fresnel != Fresnel::dielectric) return schlick(gray(lobes.layer_f0), 1, cosine).r;
     return static_cast<float>(fresnel_dielectric(cosine, inside ? 1 / lobes.ior : lobes.ior));
@@ -157,7 +181,8 @@ float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {
 
 bool send_same_rays(const Lobes& a, const Lobes& b) {
     return a.mirror == b.mirror && a.refraction == b.refraction && a.straight == b.straight && a.ior == b.ior && a.fresnel == b.fresnel &&
-           a.metal == b.metal && a.metal_share == b.metal_share && a.coverage == b.coverage && a.mirror_share == b.mirror_share;
+           a.metal == b.metal && a.metal_share == b.metal_share && a.coverage == b.coverage && a.mirror_share == b.mirror_share &&
+           a.eta == b.eta && a.k == b.k && a.conductor == b.conductor && a.coat == b.coat && a.coat_alpha == b.coat_alpha;
 }
 
 ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
@@ -172,12 +197,16 @@ ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
         case Fresnel::dielectric: {
             const auto f = static_cast<float>(fresnel_dielectric(cosine, eta));
             weights = {lobes.mirror * f, lobes.refraction * (1 - f)};
-            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine);
+            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine) + conductor_beyond_schlick(lobes, cosine);
             break;
         }
         case Fresnel::schlick:
-            if (lobes.mirrors()) weights.reflected = schlick(lobes.mirror, lobes.coverage, cosine) * lobes.mirror_share;
+            if (!is_black(lobes.mirror)) weights.reflected = (schlick(lobes.mirror, lobes.coverage, cosine) + conductor_beyond_schlick(lobes, cosine)) * lobes.mirror_share;
             break;
+    }
+    if (lobes.coat > 0 && !inside) {
+        const auto below = static_cast<float>(1 - coat_reflectance(lobes, cosine));
+        weights = {weights.reflected * below + schlick(gray(coat_f0), 1, cosine) * (lobes.coat * lobes.coat_mirror_share), weights.refracted * below};
     }
     return weights;
 }

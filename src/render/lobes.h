@@ -50,6 +50,12 @@ struct Lobes {
     float multiple_density = 0;  // so much of it to each direction (1/sr), times what is missing there
     MissingCells multiple_cells{};
     RoughGlass glass;
+    Rgb eta, k, conductor_f0;   // of a metal given by its complex index
+    float conductor = 0;        // share of that metal in all; 0: there is none
+    float coat = 0;             // share of a clear coat over all else; seen from outside
+    float coat_alpha = smoothest_alpha;
+    float coat_mirror_share = 1;
+    SplitSums coat_sums{};
     Rgb mirror;              // weight of the reflected ray; with schlick: f0
     Rgb metal;               // dielectric: f0 of a metal beside it, rising to metal_share (Schlick)
     float metal_share = 0;
@@ -68,11 +74,13 @@ struct Lobes {
 
     bool operator==(const Lobes&) const = default;
     bool opaque() const { return is_black(shadow_filter); }
-    bool mirrors() const { return !is_black(mirror); }
+    bool mirrors() const { return !is_black(mirror) || coat * coat_mirror_share > 0; }
     bool refracts() const { return !is_black(refraction); }
     bool goes_on() const { return mirrors() || refracts() || !is_black(straight); }  // some ray may leave
     bool transmits() const { return layered() && fresnel == Fresnel::dielectric; }  // physical, of glass to some extent: its reflection follows Fresnel's equations
     bool smooth() const { return alpha <= smoothest_alpha; }                       // physical: its facets are one mirror
+    bool coat_is_smooth() const { return coat_alpha <= smoothest_alpha; }
+    bool composed() const { return conductor > 0 || coat > 0; }                    // physical, of more than reflect_physical knows
     bool layered() const { return highlight_lobe == HighlightLobe::ggx; }            // diffuse light is what a reflecting layer lets in
 };
 
@@ -85,6 +93,14 @@ float layer_mirrors(const Lobes& lobes, double cosine, bool inside);
 // Light arriving from direction `to_light` (unit) with the given strength, leaving towards `to_viewer` (unit): radiance per unit of
 // strength. Both are on the side of the shading normal; cosine = dot(normal, to_light) > 0.
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight);
+
+inline constexpr float coat_f0 = 0.04f;  // index 1.5
+
+// What a clear coat takes of the light that would reach what is below, at a cosine (0 to 1) outside of it.
+double coat_reflectance(const Lobes& lobes, double cosine);
+
+// What is to be added to Schlick's approximation for the facets of a metal given by its complex index.
+Rgb conductor_beyond_schlick(const Lobes& lobes, double cosine);
 
 // Weights of the two rays that a node may spawn, for a ray that meets the surface at `cosine` (>= 0), from inside or outside.
 struct ChildWeights {

@@ -31,6 +31,10 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
         field(&M::ior, {"ior", FieldType::number, "", 1, 10, "Index of refraction"}),
         field(&M::transmission, {"transmission", FieldType::number, "", 0, 1, "Share of light that enters and is refracted"}),
         field(&M::attenuation, {"attenuation", FieldType::color, "1/m", 0, unbounded, "Absorption inside the material"}),
+        field(&M::eta, {"eta", FieldType::color, "", 0, 100, "Index of refraction of a metal at the wavelengths of red, green and blue; used with `k`, instead of `base_color`"}),
+        field(&M::k, {"k", FieldType::color, "", 0, 100, "Extinction coefficient of a metal at the same; black: the metal is given by `base_color`"}),
+        field(&M::clearcoat, {"clearcoat", FieldType::number, "", 0, 1, "Share of the surface under a clear coat of index 1.5"}),
+        field(&M::clearcoat_roughness, {"clearcoat_roughness", FieldType::number, "", 0, 1, "0: a glossy coat, 1: a matt one"}),
         field(&M::opacity, {"opacity", FieldType::number, "", 0, 1, "Coverage; the rest passes straight on"}),
         field(&M::double_sided, {"double_sided", FieldType::boolean, "", 0, 1, "Both sides are met; false: the back is not there, for eye and light (what transmits has both sides always)"}),
     };

@@ -30,7 +30,7 @@ struct ClassicMaterial {
     bool operator==(const ClassicMaterial&) const = default;
 };
 
-// glTF 2.0 metallic-roughness with KHR_materials_ior and _transmission, factors only.
+// glTF 2.0 metallic-roughness with KHR_materials_ior, _transmission, _volume and _clearcoat, factors only; metals may be given by their optical constants.
 struct PhysicalMaterial {
     Rgb base_color{0.8f, 0.8f, 0.8f};
     double metallic = 0;
@@ -39,6 +39,10 @@ struct PhysicalMaterial {
     double ior = 1.5;
     double transmission = 0;
     Rgb attenuation{0, 0, 0};            // absorption inside, 1/m
+    Rgb eta{0, 0, 0};                    // with k, the complex index of refraction eta + i k of a metal, in place of base_color
+    Rgb k{0, 0, 0};                      // black: no constants are given
+    double clearcoat = 0;                // share of the surface under a clear dielectric coat (index 1.5)
+    double clearcoat_roughness = 0;
     double opacity = 1;                  // alpha coverage: the rest passes straight on
     bool double_sided = true;
     static const FieldTable<PhysicalMaterial>& fields();

@@ -10,6 +10,7 @@
 #include "io/edit_reference.h"
 #include "io/edit_script.h"
 #include "io/scene_file.h"
+#include "scene/material_library.h"
 #include "scene/validate.h"
 
 namespace crescente::io {
@@ -82,6 +83,24 @@ protected:
     const scene::PhysicalMaterial& physical(std::size_t i) const { return std::get<scene::PhysicalMaterial>(s.materials[i].model); }
     math::Vec3 origin(std::uint32_t n) const { return s.nodes[n].transform.origin; }
 };
+
+TEST_F(Edits, MaterialsOfTheLibrary) {
+    const auto library = [](const char* name) { return scene::find_in_library(name)->material; };
+    const auto physical = [this](std::size_t i) { return std::get<scene::PhysicalMaterial>(s.materials.at(i).model); };
+    const auto undo = apply(R"({"set": {"material.red.library": "gold satin", "material.red.roughness": 0.1}})");
+    scene::PhysicalMaterial gold = library("gold satin");
+    gold.roughness = 0.1;
+    EXPECT_EQ(physical(0), gold);
+    apply(R"({"material": {"name": "chrome", "library": "chromium polished"}})");
+    EXPECT_EQ(physical(2), library("chromium polished"));
+    apply(R"({"assign": {"object": "ground", "material": {"library": "porcelain"}}})");
+    ASSERT_EQ(s.materials.size(), 4u);
+    EXPECT_EQ(physical(3), library("porcelain"));
+    apply(R"({"assign": {"object": "van", "material": {"library": "porcelain"}}})");
+    EXPECT_EQ(s.materials.size(), 4u) << "it is there";
+    EXPECT_NE(problems_of(R"({"set": {"material.red.library": "porcelaine"}})").find("did you mean 'porcelain'"), std::string::npos);
+    EXPECT_NE(problems_of(R"({"assign": {"object": "van", "material": {"library": 1}}})").find("/assign/material/library"), std::string::npos);
+}
 
 TEST_F(Edits, SetValuesByPath) {
     apply(R"({"set": {"material.red.base_color": "#00ff00", "light.key.intensity": 3, "settings.threshold": 0.5, "camera.position": [100, 200, 300],

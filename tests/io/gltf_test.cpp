@@ -221,7 +221,7 @@ TEST(Gltf, MaterialFactorsAndExtensions) {
     made.accessor(square, 5126, "VEC3", 3);
     const auto loaded = read(made.glb(
         R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},"alphaMode":"BLEND","doubleSided":true,)"
-        R"("emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_ior":{"ior":1.3},)"
+        R"("emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_ior":{"ior":1.3},"KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.2},)"
         R"("KHR_materials_transmission":{"transmissionFactor":0.9},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":0.5,"attenuationColor":[1,0.5,0.25]}}},)"
         R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.3]},"alphaMode":"MASK"},{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.3]}}],)" +
         mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0},{"attributes":{"POSITION":0},"mode":6,"material":1},{"attributes":{"POSITION":0},"mode":6,"material":2})")));
@@ -234,6 +234,8 @@ TEST(Gltf, MaterialFactorsAndExtensions) {
     EXPECT_TRUE(m.double_sided);
     EXPECT_EQ(m.emissive, (math::Rgb{4, 2, 0}));
     EXPECT_EQ(m.ior, 1.3);
+    EXPECT_EQ(m.clearcoat, 0.7);
+    EXPECT_EQ(m.clearcoat_roughness, 0.2);
     EXPECT_EQ(m.transmission, 0.9);
     EXPECT_NEAR(m.attenuation.r, 0, 1e-6);
     EXPECT_NEAR(m.attenuation.g, std::log(2.0) / 0.5, 1e-6);

@@ -2,6 +2,7 @@
 #include "render/bsdf.h"
 
 #include "render/scenes.h"
+#include "scene/material_library.h"
 
 namespace crescente::render::testing {
 namespace {
@@ -19,6 +20,14 @@ Named physical(std::string name, Rgb color, double metallic, double roughness, d
     m.base_color = color, m.metallic = metallic, m.roughness = roughness, m.transmission = transmission, m.opacity = opacity, m.ior = ior;
     return {std::move(name) + " " + std::to_string(roughness), compile({"", m})};
 }
+
+// A metal given by its constants under a clear coat; k black: white.
+Named coated(std::string name, Rgb eta, Rgb k, double metallic, double roughness, double coat, double coat_roughness) {
+    PhysicalMaterial m;
+    m.base_color = {1, 1, 1}, m.eta = eta, m.k = k, m.metallic = metallic, m.roughness = roughness, m.clearcoat = coat, m.clearcoat_roughness = coat_roughness;
+    return {std::move(name) + " " + std::to_string(roughness), compile({"", m})};
+}
+const Rgb gold_eta{0.183f, 0.53f, 1.33f}, gold_k{3.41f, 2.25f, 1.87f}, perfect_k{4, 3, 2};  // no eta: nothing is absorbed
 
 Named classic(std::string name, float diffuse, float specular, double shininess, scene::Highlight form, float reflection = 0, float transmission = 0, bool fresnel = false) {
     ClassicMaterial m = matte(gray(diffuse));
@@ -44,6 +53,11 @@ std::vector<Named> white() {
         all.push_back(physical("milk glass", one, 0.2, roughness, 0.5));
         all.push_back(physical("veil", one, 0.3, roughness, 0, 0.6));
         all.push_back(physical("glass veil", one, 0, roughness, 0.7, 0.6));
+        all.push_back(coated("perfect metal", {}, perfect_k, 1, roughness, 0, 0));
+        all.push_back(coated("perfect half metal", {}, perfect_k, 0.5, roughness, 0, 0));
+        all.push_back(coated("coated metal", {}, perfect_k, 1, roughness, 1, 0));
+        all.push_back(coated("matt coated metal", {}, perfect_k, 1, roughness, 1, 0.4));
+        all.push_back(coated("half coated plastic", {}, {}, 0, roughness, 0.5, 0.2));
     }
     all.push_back(classic("matte", 1, 0, 1, Highlight::phong));
     all.push_back(classic("phong", 0.5f, 0.5f, 20, Highlight::phong));
@@ -64,7 +78,7 @@ void for_each_draw(int n, const std::function<void(std::array<double, 3>)>& draw
 
 // What comes back from a furnace where light of strength 1 is everywhere.
 double furnace(const Lobes& lobes, double theta, bool inside) {
-    constexpr int n = 10000;
+    constexpr int n = 8000;
     double sum = 0;
     for_each_draw(n, [&](std::array<double, 3> u) {
         if (const auto s = sample_scatter(lobes, {up, up, {}, inside}, direction(theta, 0.4), u, true)) sum += (s->value.diffuse.g + s->value.glossy.g) / s->value.pdf;
@@ -88,9 +102,19 @@ TEST(Bsdf, RoughMetalAndGlassLoseNothing) {
     for (const double roughness : roughnesses) {
         for (const double view : views) {
             EXPECT_GE(furnace(physical("", one, 1, roughness).lobes, view, false), 0.98) << roughness << " " << view;
+            EXPECT_GE(furnace(coated("", {}, perfect_k, 1, roughness, 0, 0).lobes, view, false), 0.98) << roughness << " " << view;
             for (const double ior : {1.2, 1.5, 2.4}) {
                 for (const bool inside : {false, true}) EXPECT_GE(furnace(physical("", one, 0, roughness, 1, 1, ior).lobes, view, inside), 0.98) << roughness << " " << view << " " << ior << inside;
             }
+        }
+    }
+}
+
+TEST(Bsdf, TheLibraryAddsNoLight) {
+    for (const scene::LibraryMaterial& m : scene::material_library()) {
+        const Lobes lobes = compile({m.name, m.material});
+        for (const double view : {0.01, 0.9, 1.4}) {
+            for (int side = 0; side < (m.material.transmission > 0 ? 2 : 1); ++side) EXPECT_LE(furnace(lobes, view, side == 1), 1.006) << m.name << " " << view;
         }
     }
 }
@@ -114,7 +138,7 @@ TEST(Bsdf, AgreesWithLightsWithoutExtent) {
             const float unit = m.lobes.layered() ? 1 : static_cast<float>(1 / pi);
             const Rgb diffuse = reflect_light(m.lobes, up, v, l, l.z, false) * unit, whole = reflect_light(m.lobes, up, v, l, l.z, true) * unit;
             expect_near(s.diffuse, diffuse, 1e-5);
-            if (m.lobes.layered() ? m.lobes.smooth() : m.name.starts_with("broad")) continue;  // a mirror, or kept from giving back too much
+            if (m.lobes.layered() ? m.lobes.smooth() || (m.lobes.coat > 0 && m.lobes.coat_is_smooth()) : m.name.starts_with("broad")) continue;  // a mirror, or kept from giving back too much
             const float size = 1 + max_component(whole);
             expect_near((s.diffuse + s.glossy) * (1 / size), whole * (1 / size), 2e-5);
         }
@@ -243,6 +267,9 @@ TEST(Bsdf, DensityIsThatOfTheSampler) {
         all.push_back({physical("plastic", {0.2f, 0.6f, 0.8f}, 0, roughness), false});
         all.push_back({physical("glass", {0.9f, 1, 0.9f}, 0, roughness, 1), true});
     }
+    all.push_back({coated("gold", gold_eta, gold_k, 1, 0.35, 0, 0), false});
+    all.push_back({coated("coated gold", gold_eta, gold_k, 0.6, 0.5, 0.7, 0.3), false});
+    all.push_back({coated("glossy coat", {}, {}, 0, 0.6, 1, 0), false});
     all.push_back({physical("milk glass", {0.9f, 1, 0.9f}, 0.1, 0.4, 0.6, 0.8, 1.8), true});
     const std::vector<double> thetas{0.2, 0.9, 1.4};
     int cases = 0;
@@ -286,6 +313,19 @@ TEST(Bsdf, NormalsThatDisagreeLetNothingThrough) {
             EXPECT_EQ(dot(s->direction, facing.shading) < 0, s->crosses);
         }
     });
+}
+
+TEST(Bsdf, MetalsReflectAsFresnelSays) {
+    for (const double roughness : {0.0, 0.05}) {
+        for (double theta = 0.1; theta < 1.4; theta += 0.2) {
+            const Lobes gold = coated("", gold_eta, gold_k, 1, roughness, 0, 0).lobes;
+            const Rgb expected = fresnel_conductor(std::cos(theta), gold_eta, gold_k);
+            EXPECT_NEAR(furnace(gold, theta, false), expected.g, 3e-3);
+            if (!gold.smooth()) continue;
+            expect_near(smooth_weights(gold, std::cos(theta), false).reflected, expected, 1e-6);
+            expect_near(child_weights(gold, std::cos(theta), false).reflected, expected, 1e-6);
+        }
+    }
 }
 
 TEST(Bsdf, SmoothLobesAreRays) {

@@ -1,5 +1,8 @@
 // Materials and the light of the environment against closed forms and numerical integrals.
 #include "render/environment.h"
+
+#include <complex>
+
 #include "render/scenes.h"
 
 namespace crescente::render::testing {
@@ -30,6 +33,17 @@ TEST(Fresnel, ClosedForms) {
         }
     }
     EXPECT_EQ(fresnel_dielectric(0.7, 1), 0);
+}
+
+TEST(Fresnel, OfMetals) {
+    // Against the equations for complex amplitudes themselves.
+    for (const auto& [eta, k] : {std::pair{0.18, 3.4}, {1.5, 0.0}, {3.1, 3.3}, {0.0, 2.0}}) {
+        for (double cosine = 0.01; cosine <= 1; cosine += 0.03) {
+            const std::complex<double> n{eta, k}, inside = std::sqrt(1.0 - (1 - cosine * cosine) / (n * n));
+            const double s = std::norm((cosine - n * inside) / (cosine + n * inside)), p = std::norm((n * cosine - inside) / (n * cosine + inside));
+            EXPECT_NEAR(fresnel_conductor(cosine, eta, k), 0.5 * (s + p), 1e-12) << eta << " " << k << " " << cosine;
+        }
+    }
 }
 
 TEST(ChildWeights, ShareTheLight) {

@@ -30,5 +30,6 @@ Command add_bench(CLI::App& app);
 Command add_compare(CLI::App& app);
 Command add_formats(CLI::App& app);
 Command add_schema(CLI::App& app);
+Command add_materials(CLI::App& app);
 
 }  // namespace crescente::app

@@ -65,7 +65,7 @@ ExitCode run(int count, char** arguments) {
     CLI::App app("Crescente renders models by ray tracing with growing realism: a whole picture at once, better at every moment.", "crescente");
     app.set_version_flag("--version", std::string("crescente ") + CRESCENTE_VERSION);
     app.footer(footer);
-    const std::array commands = {add_render(app), add_edit(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app)};
+    const std::array commands = {add_render(app), add_edit(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app), add_materials(app)};
     for (const Command& command : commands) command.parser->allow_extras();
     app.allow_extras();
 
