@@ -28,6 +28,9 @@ public:
     // A place of the viewer from which a camera ray comes to the point.
     Vec3 viewer_of(Vec3 point) const { return orthographic_ ? point - forward_ : position_; }
 
+    // Height of a pixel at this distance, m; seen in parallel, at every distance.
+    double pixel_width(double distance) const { return 2 * length(up_) / height_ * (orthographic_ ? 1.0 : distance); }
+
     bool operator==(const CameraRays&) const = default;
     Vec3 position() const { return position_; }
     Vec3 forward() const { return forward_; }

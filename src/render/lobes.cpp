@@ -33,7 +33,7 @@ Lobes compile_classic(const scene::ClassicMaterial& m) {
     return lobes;
 }
 
-Lobes compile_physical(const scene::PhysicalMaterial& m) {
+Lobes compile_physical(const scene::PhysicalMaterial& m, SplitSums (*sums)(double alpha)) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
     const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
     const double r0 = (m.ior - 1) / (m.ior + 1);
@@ -48,7 +48,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m) {
     const Rgb f0 = mix(gray(lobes.layer_f0), m.base_color, metallic) * opacity;
     lobes.roughness = static_cast<float>(m.roughness);
     lobes.alpha = std::max(0.002f, lobes.roughness * lobes.roughness);
-    lobes.sums = split_sums(lobes.alpha);
+    lobes.sums = sums(lobes.alpha);
     lobes.highlight = f0;
     lobes.highlight_lobe = HighlightLobe::ggx;
     if (transmission > 0) {
@@ -79,9 +79,9 @@ Rgb schlick(Rgb f0, float f90, double cosine) { return f0 + (gray(f90) - f0) * s
 
 }  // namespace
 
-Lobes compile(const scene::Material& material) {
+Lobes compile(const scene::Material& material, SplitSums (*sums)(double alpha)) {
     if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
-    return compile_physical(std::get<scene::PhysicalMaterial>(material.model));
+    return compile_physical(std::get<scene::PhysicalMaterial>(material.model), sums);
 }
 
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight) {

@@ -53,7 +53,8 @@ struct Lobes {
     bool layered() const { return highlight_lobe == HighlightLobe::ggx; }            // diffuse light is what a reflecting layer lets in
 };
 
-Lobes compile(const scene::Material& material);
+// Without the material's textures. `sums`: where the split sums come from; by table they are looked up, for lobes that are compiled for each hit.
+Lobes compile(const scene::Material& material, SplitSums (*sums)(double alpha) = split_sums);
 
 // Share of light that the smooth layer of a physical material's dielectric mirrors: what its mirrored ray weighs, its coverage and metal aside.
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/world.h"
+#include "render/surface_lobes.h"
 
 namespace crescente::render {
 namespace {
@@ -85,8 +85,10 @@ Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<
         const accel::Instance& instance = world.instances[hit.instance];
         const geometry::Ray local = accel::to_local(instance, ray);
         const auto surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
-        const Lobes& lobes = world.lobes[world.material(hit.instance, surface.slot)];
-        filter *= lobes.shadow_filter;
+        const std::uint32_t material = world.material(hit.instance, surface.slot);
+        const Lobes& lobes = world.lobes[material];
+        if (const TexturedMaterial* textured = world.textured_material(material)) filter *= textured->lobes_at(texture_point(world, tile, node, ray, hit)).shadow_filter;
+        else filter *= lobes.shadow_filter;
         if (!world.absorbs) continue;
         const bool leaves = dot(surface.normal, local.direction) > 0;
         if (const auto medium = find(media, hit.instance); medium != media.end()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "math/vec.h"
 #include "math/vec_lanes.h"
@@ -42,6 +43,27 @@ SplitSums split_sums(double alpha) {
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double root = static_cast<double>(i) / last;
         sums[i] = split_sum_at(alpha, std::max(1e-4, root * root));
+    }
+    return sums;
+}
+
+SplitSums tabled_split_sums(double alpha) {
+    constexpr std::size_t steps = 128;
+    static const std::vector<SplitSums> table = [] {
+        std::vector<SplitSums> rows;
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double roughness = static_cast<double>(i) / steps;
+            rows.push_back(split_sums(std::max(1e-3, roughness * roughness)));
+        }
+        return rows;
+    }();
+    const double place = std::sqrt(std::clamp(alpha, 0.0, 1.0)) * steps;
+    const auto i = std::min(static_cast<std::size_t>(place), steps - 1);
+    const auto t = static_cast<float>(place - static_cast<double>(i));
+    SplitSums sums;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const SplitSum &a = table[i][k], &b = table[i + 1][k];
+        sums[k] = {a.scale + (b.scale - a.scale) * t, a.bias + (b.bias - a.bias) * t};
     }
     return sums;
 }

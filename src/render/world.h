@@ -11,6 +11,7 @@
 #include "render/light.h"
 #include "render/lobes.h"
 #include "render/medium.h"
+#include "render/textured_material.h"
 #include "scene/scene.h"
 
 namespace crescente::render {
@@ -24,7 +25,7 @@ struct World {
     std::vector<std::uint32_t> first_slot;        // by instance: where its materials begin in `slots`
     std::vector<std::uint32_t> slots;             // index into lobes
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
-    std::vector<Lobes> lobes;                     // one for each material of the scene, and a default one at the end
+    std::vector<Lobes> lobes;                     // one for each material of the scene, without its textures (surface_lobes.h), and a default one at the end
     std::vector<Light> lights;
     scene::Environment environment;
     CameraRays camera;
@@ -32,6 +33,10 @@ struct World {
     bool filters_light = false;  // some instance is not opaque
     bool absorbs = false;        // some instance is a medium with an attenuation
     std::vector<Medium> camera_media;
+    std::vector<std::shared_ptr<const TexturedMaterial>> textured;  // beside lobes; null: without textures; empty: no material has any
+    bool bends_normals = false;                                     // some have relief
+
+    const TexturedMaterial* textured_material(std::uint32_t material) const { return textured.empty() ? nullptr : textured[material].get(); }
 
     // Index into lobes of what a hit's surface is made of.
     std::uint32_t material(std::uint32_t instance, std::uint32_t slot) const {

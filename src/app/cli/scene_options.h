@@ -23,6 +23,7 @@ struct SceneOptions {
     bool orthographic = false;
     std::vector<std::string> overrides;  // --set path=value
     bool no_studio = false, no_cache = false, verbose = false;
+    std::string missing_textures = "error";
 };
 
 // Declares the options; `options` must outlive the parsing.
@@ -35,6 +36,7 @@ struct SceneRequest {
     View view;
     std::vector<std::string> overrides;
     bool studio = true, cache = true, verbose = false;
+    bool texture_pattern = false;
 };
 
 // Every problem of the options at once (ErrorKind::usage).

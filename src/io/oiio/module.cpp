@@ -1,9 +1,10 @@
-// Encodes pictures with OpenImageIO, into memory: writing the file safely is the program's matter.
+// Encodes and decodes pictures with OpenImageIO, in memory: reading and writing files safely is the program's matter.
 #include "io/oiio/module.h"
 
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -40,6 +41,14 @@ public:
 
     bool open() const { return descriptor_ >= 0; }
     std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    bool write(const char* bytes, std::size_t size) const {
+        for (std::size_t at = 0; at < size;) {
+            const ssize_t n = pwrite(descriptor_, bytes + at, size - at, static_cast<off_t>(at));
+            if (n <= 0) return false;
+            at += static_cast<std::size_t>(n);
+        }
+        return true;
+    }
     bool read(std::string& bytes) const {
         const off_t size = lseek(descriptor_, 0, SEEK_END);
         if (size < 0) return false;
@@ -56,7 +65,14 @@ private:
     int descriptor_;
 };
 
+// Pictures are decoded in copies of the process, in which threads that the libraries had begun before are not there, and would be waited for without end.
+void begin_no_threads() {
+    static const bool told = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+    static_cast<void>(told);
+}
+
 std::string encode(const CrescenteEncodeRequest& request, std::string& bytes) {
+    begin_no_threads();
     const auto output = OIIO::ImageOutput::create(request.format);
     if (!output) return "OpenImageIO cannot write " + std::string(request.format) + ": " + OIIO::geterror();
     const MemoryFile memory;
@@ -66,6 +82,33 @@ std::string encode(const CrescenteEncodeRequest& request, std::string& bytes) {
         return "OpenImageIO: " + output->geterror();
     }
     return memory.read(bytes) ? std::string{} : std::string("the file in memory cannot be read: ") + std::strerror(errno);
+}
+
+std::string decode(const CrescenteDecodeRequest& request) {
+    begin_no_threads();
+    const MemoryFile memory;
+    if (!memory.open() || !memory.write(request.bytes, request.size)) return std::string("no file in memory: ") + std::strerror(errno);
+    OIIO::ImageSpec raw;  // alpha as the file has it, not multiplied in
+    raw.attribute("oiio:UnassociatedAlpha", 1);
+    const auto input = OIIO::ImageInput::open(memory.path(), &raw);
+    if (!input) {
+        OIIO::geterror();  // which is about the path
+        return "is no picture that OpenImageIO knows, or damaged";
+    }
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || spec.depth > 1) return "is no flat picture";
+    const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height);
+    if (static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height) > request.most_pixels) {
+        return "has " + size + " pixels, a texture may have " + std::to_string(request.most_pixels);
+    }
+    if (spec.nchannels > 4) return "has " + std::to_string(spec.nchannels) + " channels, a texture may have 1 to 4";
+    const int bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : spec.format == OIIO::TypeDesc::UINT16 ? 16 : 32;
+    const OIIO::TypeDesc type = bits == 8 ? OIIO::TypeDesc::UINT8 : bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+    const int width = spec.width, height = spec.height, channels = spec.nchannels;
+    std::vector<char> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels) * static_cast<std::size_t>(bits / 8));
+    if (!input->read_image(0, 0, 0, channels, type, pixels.data())) return "is damaged: " + input->geterror();
+    request.take(request.user, width, height, channels, bits, pixels.data());
+    return {};
 }
 
 }  // namespace
@@ -83,6 +126,18 @@ extern "C" __attribute__((visibility("default"))) int crescente_oiio_encode(cons
             request->take(request->user, bytes.data(), bytes.size());
             return 1;
         }
+    } catch (const std::exception& e) {
+        error = e.what();
+    }
+    request->fail(request->user, error.c_str());
+    return 0;
+}
+
+extern "C" __attribute__((visibility("default"))) int crescente_oiio_decode(const CrescenteDecodeRequest* request) {
+    std::string error;
+    try {
+        error = request->version == crescente_oiio_version ? decode(*request) : "the module crescente_openimageio is of another version";
+        if (error.empty()) return 1;
     } catch (const std::exception& e) {
         error = e.what();
     }

@@ -23,8 +23,20 @@ struct CrescenteEncodeRequest {
     void (*fail)(void* user, const char* reason);                   // or once with what went wrong
 };
 
-// The single symbol of the module. Returns 1 after take, 0 after fail.
+struct CrescenteDecodeRequest {
+    std::uint32_t version;  // must be crescente_oiio_version
+    const char* bytes;      // the whole file, of any format that OpenImageIO knows
+    std::size_t size;
+    std::uint64_t most_pixels;  // more are refused before they are decoded
+    void* user;
+    // Called once: sample_bits as above; interleaved, row by row from the top, alpha not multiplied in.
+    void (*take)(void* user, int width, int height, int channels, int sample_bits, const void* pixels);
+    void (*fail)(void* user, const char* reason);  // or once with what went wrong
+};
+
+// The symbols of the module. They return 1 after take, 0 after fail.
 int crescente_oiio_encode(const CrescenteEncodeRequest* request);
+int crescente_oiio_decode(const CrescenteDecodeRequest* request);
 }
 
-inline constexpr std::uint32_t crescente_oiio_version = 1;
+inline constexpr std::uint32_t crescente_oiio_version = 2;
