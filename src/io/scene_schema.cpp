@@ -240,7 +240,8 @@ constexpr const char* texture_introduction = R"(
 A texture multiplies the field that it acts on: any colour or number of the material but `ior`, `attenuation` and `dispersion`, which are the same everywhere in a body. Besides it can act on
 `normal` (a normal map, its green up the picture as in glTF), `bump` (a height), and `occlusion` (light from around that does not reach into creases). A list of textures acts one after the other.
 
-Coordinates: with `uv` those of a mesh, or the parameters of an exact surface (of a cylinder the angle in radians and the height in metres); `box`, `planar`, `cylindrical` and `spherical` project from the place in the
+Coordinates: with `uv` those of a mesh, or the parameters of an exact surface, with pictures upright: of native shapes shares of a turn and of the height, of faces of CAD files as their surface has them (of a cylinder
+radians about its axis and metres along it); `box`, `planar`, `cylindrical` and `spherical` project from the place in the
 shape's own space, from the middle of its box, in metres as the shape stands in the scene, so that a texture has its true size on a part without coordinates; around an axis whole repeats close the circle.
 
 )";

@@ -19,7 +19,7 @@ double path_length(const World& world, const Tile& tile, std::uint32_t node) {
 
 TexturePoint texture_point(const World& world, const Tile& tile, std::uint32_t i) {
     const Node& node = tile.nodes[i];
-    return {&world.instances[node.instance], node.primitive, node.position, decode_direction(node.geometric_normal),
+    return {&world.instances[node.instance], &world.shape_boxes[node.instance], node.primitive, node.position, decode_direction(node.geometric_normal),
             normalize(seen_from(world, tile, node) - node.position), world.camera.pixel_width(path_length(world, tile, i)), node.inside};
 }
 
@@ -28,7 +28,7 @@ TexturePoint texture_point(const World& world, const Tile& tile, std::uint32_t n
     const geometry::SurfacePoint surface = geometry::surface(*instance.shape, hit.primitive, accel::to_local(instance, ray).at(hit.t));
     const Vec3 normal = normalize(instance.to_local.transposed(surface.normal));
     const bool inside = dot(normal, ray.direction) > 0;
-    return {&instance, hit.primitive, instance.to_world.point(surface.position), inside ? -normal : normal, -ray.direction,
+    return {&instance, &world.shape_boxes[hit.instance], hit.primitive, instance.to_world.point(surface.position), inside ? -normal : normal, -ray.direction,
             world.camera.pixel_width(path_length(world, tile, node) + hit.t), inside};
 }
 

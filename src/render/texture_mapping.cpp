@@ -60,11 +60,11 @@ private:
     double u_, v_;
 };
 
-// Parameters of a shape that is no mesh. They change from place to place as the shape's own routine finds them.
+// Parameters of a shape that is no mesh, of which v runs up, while textures count it down the picture. They change from place to place as the shape's own routine finds them.
 Coordinates parameters(const Instance& instance, const TexturePoint& point, const Footprint& print) {
     const auto at = [&](Vec3 world) {
         const geometry::SurfacePoint surface = geometry::surface(*instance.shape, point.primitive, instance.to_local.point(world));
-        return Uv{surface.u, surface.v};
+        return Uv{surface.u, 1 - surface.v};
     };
     Coordinates result;
     result.at = at(point.position);
@@ -88,7 +88,7 @@ struct MetricSpace {
         const Affine& out = instance.to_world;
         const Vec3 scale{length(out.x), length(out.y), length(out.z)};
         const auto scaled = [&](Vec3 v) { return Vec3{v.x * scale.x, v.y * scale.y, v.z * scale.z}; };
-        const Bounds box = geometry::bounds(*instance.shape);
+        const Bounds& box = *point.box;
         const Vec3 center = box.bounded() ? (box.lower + box.upper) * 0.5 : Vec3{};
         half = box.bounded() ? scaled(box.upper - box.lower) * 0.5 : Vec3{};
         at = scaled(instance.to_local.point(point.position) - center);

@@ -18,6 +18,7 @@ using namespace math;
 // A place on a surface as a ray sees it, in world space.
 struct TexturePoint {
     const accel::Instance* instance = nullptr;
+    const Bounds* box = nullptr;  // of its shape, in the shape's space
     std::uint32_t primitive = 0;
     Vec3 position;
     Vec3 geometric;    // normal on the viewer's side, unit length

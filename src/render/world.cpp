@@ -34,7 +34,8 @@ void derive(World& world) {
         world.instances.emplace_back(shape, at.to_world, opaque);
         world.node_of_instance.push_back(at.node);
         world.identity.push_back(at.identity);
-        world.boxes.push_back(transform(at.to_world, geometry::bounds(shape)));
+        world.shape_boxes.push_back(geometry::bounds(shape));
+        world.boxes.push_back(transform(at.to_world, world.shape_boxes.back()));
     });
     for (const std::uint32_t slot : world.slots) world.one_sided.push_back(world.lobes[slot].one_sided);
     for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
@@ -60,7 +61,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
 
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}, false});
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}, false});
     derive(*world);
     return world;
 }

@@ -22,6 +22,7 @@ struct World {
     std::vector<std::uint32_t> node_of_instance;  // index of the scene's node
     std::vector<std::uint64_t> identity;          // by instance: scene::Appearance::identity
     std::vector<Bounds> boxes;                    // by instance, in world space
+    std::vector<Bounds> shape_boxes;              // by instance, in the shape's space
     std::vector<std::uint32_t> first_slot;        // by instance: where its materials begin in `slots`
     std::vector<std::uint32_t> slots;             // index into lobes
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <random>
@@ -241,6 +242,37 @@ TEST_F(TextureFiles, WhatIsWrongInASceneIsTold) {
     expect_part(told_of(R"({"roughness": {"kind": "noise", "axis": [0, 0, 0]}})"), "it points nowhere");
     expect_part(told_of(R"({"roughness": {"kind": "noise", "cutoff": 0.5}})"), "only opacity can be cut off");
     expect_part(told_of(R"({"base_color": {"kind": "noise", "image": "oak.png"}})"), "which its kind does not show");
+}
+
+// v counts up the picture in OBJ, and down here.
+TEST_F(TextureFiles, OfWavefrontMaterialsAreRead) {
+    NEEDS_PICTURES;
+    picture("ramp.png", 4, 2, {"R", "G", "B"});
+    put("tile.mtl", "newmtl oak\nKd 0.5 0.5 0.5\nmap_Kd ramp.png\nnewmtl stone\nKd 1 1 1\nmap_Kd ../outside.png\n");
+    put("tile.obj", "mtllib tile.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 0.75\nusemtl oak\nf 1/1 2/2 3/3\nusemtl stone\nf 2/1 4/2 3/3\n");
+    const auto loaded = io::read_scene(in("tile.obj"));
+    if (!loaded && loaded.error().kind == ErrorKind::unsupported) GTEST_SKIP() << "this build is without Assimp";
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_TRUE(scene::validate(loaded->scene, "").empty());
+    const auto named = [&](const std::string& name) {
+        return *std::find_if(loaded->scene.materials.begin(), loaded->scene.materials.end(), [&](const scene::Material& m) { return m.name == name; });
+    };
+    ASSERT_EQ(named("oak").textures.size(), 1u);
+    EXPECT_EQ(named("oak").textures[0].target, "base_color");
+    EXPECT_EQ(named("oak").textures[0].texture.image->width(), 4);
+    EXPECT_TRUE(named("stone").textures.empty()) << "a file from a stranger must not make the program read what lies elsewhere";
+    bool told = false;
+    for (const Problem& p : loaded->warnings) told = told || p.reason.find("1 textures are left out") != std::string::npos;
+    EXPECT_TRUE(told);
+    for (const auto& shape : loaded->scene.shapes) {
+        const auto& mesh = std::get<geometry::Mesh>(shape.shape);
+        if (mesh.coordinates[0].empty()) continue;
+        ASSERT_EQ(mesh.coordinates[0].size(), mesh.positions.size());
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            EXPECT_EQ(mesh.coordinates[0][i][0], mesh.positions[i].x);
+            EXPECT_EQ(mesh.coordinates[0][i][1], mesh.positions[i].y == 1 ? 0.25f : 1.0f);
+        }
+    }
 }
 
 TEST_F(TextureFiles, EditsBringTheirPictures) {

@@ -138,6 +138,7 @@ TEST(Textures, ProjectionsHaveTheirTrueSizeAndStayOnTheirObject) {
     Texture board;
     board.kind = TextureKind::checker, board.size = 0.25, board.blend = 0;
     const geometry::Shape shape = box({-1, -1, -1}, {1, 1, 1});
+    const Bounds bounds = geometry::bounds(shape);
     for (const TextureProjection projection : {TextureProjection::box, TextureProjection::planar, TextureProjection::solid}) {
         board.projection = projection, board.axis = {0, 0, 1};
         Random random(3);
@@ -145,7 +146,7 @@ TEST(Textures, ProjectionsHaveTheirTrueSizeAndStayOnTheirObject) {
             const Affine at = Affine::translation(random.in_cube(50)) * Affine::rotation(random.direction(), random.uniform(0, 6));
             const accel::Instance instance(shape, at * Affine::scaling({0.5, 0.5, 0.5}), true);
             const Vec3 local{random.uniform(-1, 1), random.uniform(-1, 1), 1};
-            const TexturePoint point{&instance, 5, instance.to_world.point(local), normalize(at.vector({0, 0, 1})), normalize(at.vector({0.1, 0.2, 1})), 1e-9, false};
+            const TexturePoint point{&instance, &bounds, 5, instance.to_world.point(local), normalize(at.vector({0, 0, 1})), normalize(at.vector({0.1, 0.2, 1})), 1e-9, false};
             const TexturePlaces places = places_of(board, point);
             ASSERT_EQ(places.count, 1);
             const auto cell = [](double metres) { return std::floor(metres / 0.25); };
@@ -163,12 +164,13 @@ TEST(Textures, AroundAnAxisThereIsNoSeam) {
     t.kind = TextureKind::checker, t.size = 0.3;
     const geometry::Shape ball = sphere(2);
     const accel::Instance instance(ball, Affine{}, true);
+    const Bounds bounds = geometry::bounds(ball);
     for (const TextureProjection projection : {TextureProjection::cylindrical, TextureProjection::spherical}) {
         t.projection = projection;
         const auto coordinates = [&](double angle) {
             const Vec3 at = Vec3{std::cos(angle), 0.2, std::sin(angle)};
             const Vec3 p = normalize(at) * 2.0;
-            return places_of(t, {&instance, 0, p, normalize(p), normalize(p), 0.001, false}).place[0];
+            return places_of(t, {&instance, &bounds, 0, p, normalize(p), normalize(p), 0.001, false}).place[0];
         };
         const double repeats = std::abs(coordinates(1e-9 - pi).at.x - coordinates(pi - 1e-9).at.x);
         const double around = std::max(repeats, std::abs(coordinates(1e-9).at.x - coordinates(-1e-9).at.x));
