@@ -56,8 +56,14 @@ private:
     void compare_lobes() {
         // New ones come before the default one, which is the last and the same for all scenes.
         change_.lobes.resize(now_.lobes.size());
+        if (!before_.textured.empty() || !now_.textured.empty()) {
+            for (std::uint32_t i = 0; i + 1 < std::min(before_.lobes.size(), now_.lobes.size()); ++i) retextured_.push_back(!same_textures(before_, i, now_, i));
+        }
         for (std::size_t i = 0; i + 1 < std::min(before_.lobes.size(), now_.lobes.size()); ++i) change_.lobes[i] = difference(static_cast<std::uint32_t>(i));
     }
+
+    // Whether a material is what it was, as far as textures are concerned: found out once, not for each instance.
+    bool same_under_textures(std::uint32_t material) const { return material >= retextured_.size() || !retextured_[material]; }
 
     LobesChange difference(std::uint32_t i) {
         const LobesChange change = change_between(before_, i, now_, i);
@@ -115,7 +121,7 @@ private:
         for (std::size_t k = 0; k < slots; ++k) {
             const std::uint32_t from = x[std::min(k, x.size() - 1)], to = y[std::min(k, y.size() - 1)];
             if (before_.lobes[from].one_sided != now_.lobes[to].one_sided) return false;
-            if (!same_relief(before_, from, now_, to)) return false;  // nodes keep their normals
+            if (!(from == to && same_under_textures(from)) && !same_relief(before_, from, now_, to)) return false;  // nodes keep their normals
         }
         return true;
     }
@@ -128,7 +134,7 @@ private:
             const std::uint32_t a = x[std::min(k, x.size() - 1)], b = y[std::min(k, y.size() - 1)];
             if (a != b) change_.reassigned[i] = change_.any_reassigned = true;
             const Lobes &from = before_.lobes[a], &to = now_.lobes[b];
-            filters = filters || from.shadow_filter != to.shadow_filter || !same_textures(before_, a, now_, b);
+            filters = filters || from.shadow_filter != to.shadow_filter || !(a == b ? same_under_textures(a) : same_textures(before_, a, now_, b));
             if (from.attenuation != to.attenuation) change_.anew = true;
             if (a != b && (before_.absorbs || now_.absorbs) && (may_go_on(before_, a) || may_go_on(now_, b))) change_.anew = true;
         }
@@ -206,6 +212,7 @@ private:
     const World &before_, &now_;
     std::span<const geometry::Shape* const> reshaped_;
     std::vector<std::uint32_t> went_, came_;                   // instances, by their index before or now
+    std::vector<std::uint8_t> retextured_;                     // by material: its textures, or what they act on, are others; empty: there are none
     std::vector<std::uint32_t> filter_before_, filter_now_;  // that let light through otherwise
     Change change_;
 };

@@ -239,6 +239,51 @@ TEST(Gltf, HierarchyInstancesCameraAndLight) {
     EXPECT_EQ(light.range, 9);
 }
 
+TEST(Gltf, TexturesWithSamplersTransformsAndAlpha) {
+    Made made;
+    made.accessor(square, 5126, "VEC3", 3);
+    made.accessor(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+    made.accessor(std::vector<std::uint8_t>{255, 0, 0, 51, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 0}, 5121, "VEC4", 4, R"(,"normalized":true)");
+    const std::string rest =
+        R"("images":[{"uri":"data:image/png;base64,AAAA"},{"uri":"a%20b.png"}],"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}],)"
+        R"("textures":[{"source":0,"sampler":0},{"source":1}],)"
+        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":{"offset":[0.5,0.25],"rotation":1.5,"scale":[2,3],"texCoord":0}}}},)"
+        R"("alphaMode":"MASK","alphaCutoff":0.3,"normalTexture":{"index":1,"scale":0.7},"occlusionTexture":{"index":1,"strength":0.4},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":1}},)"
+        R"({"alphaMode":"BLEND"}],)";
+    const auto loaded = read(made.glb(rest + mesh_with(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"mode":6,"material":0},{"attributes":{"POSITION":0,"COLOR_0":2},"mode":6,"material":1})")));
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    const scene::Material &m = loaded->scene.materials[0], &colored = loaded->scene.materials[1];
+    const scene::Texture& base = texture(m, "base_color");
+    EXPECT_EQ(base.wrap_u, scene::Wrap::clamp);
+    EXPECT_EQ(base.wrap_v, scene::Wrap::mirror);
+    EXPECT_EQ(base.filter, scene::TextureFilter::nearest);
+    EXPECT_EQ(base.set, 0) << "the transform's goes before";
+    EXPECT_EQ((std::array{base.offset_u, base.offset_v, base.rotation, base.scale_u, base.scale_v}), (std::array{0.5, 0.25, 1.5, 2.0, 3.0}));
+    EXPECT_EQ(base.image->source().bytes, std::string(3, '\0'));
+    EXPECT_EQ(texture(m, "opacity").channel, scene::Channel::alpha);
+    EXPECT_EQ(texture(m, "opacity").cutoff, 0.3);
+    EXPECT_EQ(texture(m, "normal").strength, 0.7);
+    EXPECT_EQ(texture(m, "occlusion").strength, 0.4);
+    EXPECT_TRUE(texture(m, "emissive").image->source().file.ends_with("a b.png"));
+    EXPECT_EQ(texture(colored, "base_color").kind, scene::TextureKind::vertex_color);
+    EXPECT_EQ(texture(colored, "opacity").channel, scene::Channel::alpha);
+    EXPECT_EQ(texture(colored, "opacity").cutoff, 0);
+    const auto& mesh = std::get<geometry::Mesh>(loaded->scene.shapes[0].shape);
+    ASSERT_EQ(mesh.positions.size(), 8u) << "vertices that differ in what textures go by are not shared";
+    EXPECT_EQ(mesh.coordinates[0][1], (std::array<float, 2>{1, 1})) << "of the second corner of the fan";
+    EXPECT_EQ(mesh.coordinates[0][6], (std::array<float, 2>{0, 0})) << "of a primitive without them";
+    EXPECT_EQ(mesh.colors[0], (std::array<float, 4>{1, 1, 1, 1})) << "of a primitive without them";
+    EXPECT_EQ(mesh.colors[6], (std::array<float, 4>{1, 0, 0, 0.2f})) << "of the fan's middle";
+
+    for (const char* wrong : {R"("images":[{"uri":"../a.png"}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)",
+                              R"("images":[{"uri":"a.png"}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0,"texCoord":2}}],)",
+                              R"("images":[],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)",
+                              R"("images":[{}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)"}) {
+        EXPECT_FALSE(read(made.glb(wrong + mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0})")))) << wrong;
+    }
+    EXPECT_FALSE(read(made.glb(mesh_with(R"({"attributes":{"POSITION":0,"TEXCOORD_0":0},"mode":6})")))) << "coordinates of three numbers";
+}
+
 TEST(Gltf, MaterialFactorsAndExtensions) {
     Made made;
     made.accessor(square, 5126, "VEC3", 3);
