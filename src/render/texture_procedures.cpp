@@ -117,7 +117,8 @@ double wood(const Texture& texture, const TexturePlace& place) {
 
 double procedure_value(const Texture& texture, const TexturePlace& place) {
     constexpr double farthest = 1e9;  // beyond, numbers have no fractions to speak of
-    if (!(max_component(abs(place.at)) < farthest && max_component(abs(place.axes[0])) < farthest && max_component(abs(place.axes[1])) < farthest)) return 0.5;
+    const auto is_near = [](Vec3 v) { return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest; };
+    if (!is_near(place.at) || !is_near(place.axes[0]) || !is_near(place.axes[1])) return 0.5;
     switch (texture.kind) {
         case TextureKind::checker: return checker(texture, place);
         case TextureKind::noise: return octaves(place.at, std::max({reach(place, {1, 0, 0}), reach(place, {0, 1, 0}), reach(place, {0, 0, 1})}), 6);

@@ -110,6 +110,31 @@ TEST(Textures, WrapModes) {
     EXPECT_TRUE(std::isfinite(filtered_image(t, place(1e300, -1e300, 1e300, 1e300)).r));
 }
 
+// Whatever the numbers are, also none.
+TEST(Textures, WildPlacesGiveTameValues) {
+    Random random(6);
+    const auto wild = [&]() -> double {
+        switch (random.below(8)) {
+            case 0: return random.uniform(-1e300, 1e300);
+            case 1: return std::numeric_limits<double>::quiet_NaN();
+            case 2: return std::numeric_limits<double>::infinity();
+            case 3: return random.uniform(-1e9, 1e9);
+            default: return random.uniform(-3, 3);
+        }
+    };
+    Texture t = showing(floats_of(5, 3, 1, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}));
+    for (int i = 0; i < 20000; ++i) {
+        t.wrap_u = static_cast<scene::Wrap>(random.below(3)), t.wrap_v = static_cast<scene::Wrap>(random.below(3)), t.filter = static_cast<scene::TextureFilter>(random.below(2));
+        TexturePlace p;
+        p.at = {wild(), wild(), wild()}, p.axes[0] = {wild(), wild(), wild()}, p.axes[1] = {wild(), wild(), wild()};
+        const float picture = filtered_image(t, p).r;
+        EXPECT_TRUE(picture >= 1 && picture <= 15.001f) << picture;
+        t.kind = static_cast<TextureKind>(1 + random.below(4)), t.projection = static_cast<TextureProjection>(random.below(6));
+        const double procedure = procedure_value(t, p);
+        EXPECT_TRUE(procedure >= 0 && procedure <= 1) << procedure;
+    }
+}
+
 TEST(Textures, APictureStandsUprightAndIsNotMirrored) {
     // Upper left red, upper right green, lower left blue, lower right white.
     Texture t = showing(floats_of(2, 2, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
