@@ -36,7 +36,6 @@ LIBRARIES = {
     "oneapi/tbb": ["parallel/"],
     "OpenImageIO/": ["io/"],
     "assimp/": ["io/"],
-    "tiny_gltf": ["io/"],
     "draco/": ["io/"],
     "png.h": ["io/"],
     "nlohmann/": ["io/", "app/"],

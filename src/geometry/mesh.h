@@ -1,4 +1,4 @@
-// Triangle mesh with shared vertices, optional smooth normals and a material slot for each triangle.
+// Triangle mesh with shared vertices, optional smooth normals, a material slot for each triangle, and what textures go by.
 #pragma once
 
 #include <array>
@@ -16,6 +16,11 @@ struct Mesh {
     // Normals at the corners, unit length: empty, one for each position, or one for each corner (3 x triangles).
     std::vector<std::array<float, 3>> normals;
     std::vector<std::uint16_t> slots;  // material slot of each triangle; empty: all 0
+    // For textures, each empty or one for each position. Coordinates: u to the right, v down the picture, from its upper left corner. Colours: linear RGB and
+    // alpha. Tangents: unit vector of growing u, and the sign of cross(normal, tangent) that points up the picture.
+    std::array<std::vector<std::array<float, 2>>, 2> coordinates{};
+    std::vector<std::array<float, 4>> colors{};
+    std::vector<std::array<float, 4>> tangents{};
 
     // Of a corner (0 to 2) of a triangle; the mesh must have normals.
     Vec3 corner_normal(std::uint32_t triangle, int corner) const {

@@ -8,6 +8,8 @@
 
 #include <assimp/ObjMaterial.h>
 
+#include "io/text_file.h"
+
 namespace crescente::io {
 namespace {
 
@@ -39,9 +41,43 @@ bool refracts(const aiMaterial& material) {
     return material.Get(AI_MATKEY_OBJ_ILLUM, model) == aiReturn_SUCCESS && (model == 4 || model == 6 || model == 7 || model == 9);
 }
 
+scene::Wrap wrap(const aiMaterial& material, aiTextureType type, bool vertical) {
+    int mode = aiTextureMapMode_Wrap;
+    if (vertical) material.Get(AI_MATKEY_MAPPINGMODE_V(type, 0), mode);
+    else material.Get(AI_MATKEY_MAPPINGMODE_U(type, 0), mode);
+    return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal ? scene::Wrap::clamp : mode == aiTextureMapMode_Mirror ? scene::Wrap::mirror : scene::Wrap::repeat;
+}
+
+// Those that have a file in the folder, and are laid on by the first set of coordinates.
+void read_textures(const aiMaterial& material, const std::filesystem::path& folder, scene::Material& result) {
+    struct Kind {
+        aiTextureType type;
+        const char* target;
+        scene::Channel channel;
+    };
+    constexpr Kind kinds[] = {{aiTextureType_BASE_COLOR, "base_color", scene::Channel::automatic}, {aiTextureType_DIFFUSE, "base_color", scene::Channel::automatic},
+                              {aiTextureType_EMISSIVE, "emissive", scene::Channel::automatic},     {aiTextureType_OPACITY, "opacity", scene::Channel::red},
+                              {aiTextureType_METALNESS, "metallic", scene::Channel::red},          {aiTextureType_DIFFUSE_ROUGHNESS, "roughness", scene::Channel::red},
+                              {aiTextureType_NORMALS, "normal", scene::Channel::automatic}};
+    for (const Kind& kind : kinds) {
+        aiString path;
+        unsigned set = 0;
+        if (material.GetTexture(kind.type, 0, &path, nullptr, &set) != aiReturn_SUCCESS || set != 0) continue;
+        std::string name = path.C_Str();
+        std::replace(name.begin(), name.end(), '\\', '/');
+        const bool again = std::any_of(result.textures.begin(), result.textures.end(), [&](const scene::TextureBinding& b) { return b.target == kind.target; });
+        if (again || name.empty() || name.front() == '*' || !stays_in_folder(name)) continue;
+        scene::Texture texture;
+        texture.channel = kind.channel;
+        texture.wrap_u = wrap(material, kind.type, false), texture.wrap_v = wrap(material, kind.type, true);
+        texture.image = std::make_shared<const scene::TextureImage>(scene::ImageSource{(folder / name).string(), {}, "material '" + result.name + "'"});
+        result.textures.push_back({kind.target, std::move(texture)});
+    }
+}
+
 }  // namespace
 
-std::optional<scene::Material> physical_material(const aiMaterial& material) {
+std::optional<scene::Material> physical_material(const aiMaterial& material, const std::filesystem::path& folder) {
     scene::Material result;
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) result.name = name.C_Str();
@@ -74,6 +110,7 @@ std::optional<scene::Material> physical_material(const aiMaterial& material) {
     if (refracts(material) && opacity < 1) m.transmission = 1 - opacity;
     else m.opacity = opacity;
     if (const auto transmission = number(material, AI_MATKEY_TRANSMISSION_FACTOR)) m.transmission = std::clamp(*transmission, 0.0, 1.0);
+    read_textures(material, folder, result);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "io/scene_names.h"
 #include "io/scene_parts.h"
 #include "io/set_value.h"
+#include "io/texture_files.h"
 
 namespace crescente::io {
 namespace {
@@ -242,7 +243,7 @@ private:
         scene::Material material = read_material(json, measure_, place, problems_);
         if (!name) return;
         material.name = *name;
-        set_or_add(draft_.materials, *name, [&](std::uint32_t i) { draft_.materials.change(i).model = material.model; },
+        set_or_add(draft_.materials, *name, [&](std::uint32_t i) { draft_.materials.change(i) = material; },
                    [&] { draft_.materials.add(material); });
     }
 
@@ -342,6 +343,23 @@ private:
     std::optional<ObjectNames> names_;
 };
 
+// The pictures that the edits bring. What a reader of files warns of is wrong here: there is nobody to be warned.
+Expected<void> load_images(std::vector<scene::Edit>& edits, const std::string& file) {
+    const auto load = [&](scene::Material& material) -> Expected<void> {
+        auto warnings = load_textures({&material, 1}, file, {});
+        if (!warnings) return tl::unexpected(warnings.error());
+        if (!warnings->empty()) return tl::unexpected(Error{ErrorKind::input, std::move(*warnings)});
+        return {};
+    };
+    for (scene::Edit& edit : edits) {
+        Expected<void> loaded;
+        if (auto* set = std::get_if<scene::SetMaterial>(&edit)) loaded = load(set->value);
+        else if (auto* added = std::get_if<scene::AddMaterial>(&edit)) loaded = load(added->value);
+        if (!loaded) return loaded;
+    }
+    return {};
+}
+
 }  // namespace
 
 const Json::Member* only_member(const Json& json, const Place& place, std::span<const std::string> known, ProblemList& problems) {
@@ -361,7 +379,9 @@ Expected<std::vector<scene::Edit>> read_edit(const Json& json, const scene::Scen
     EditReader reader(scene, problems);
     reader.read(json, Place{});
     if (!problems.empty()) return tl::unexpected(Error{ErrorKind::input, problems.take()});
-    return reader.draft().edits();
+    std::vector<scene::Edit> edits = reader.draft().edits();
+    if (const auto loaded = load_images(edits, file); !loaded) return tl::unexpected(loaded.error());
+    return edits;
 }
 
 Expected<std::vector<scene::Edit>> read_edit_text(std::string_view text, const scene::Scene& scene, const std::string& file) {

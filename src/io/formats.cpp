@@ -12,6 +12,7 @@
 #include "io/ply.h"
 #include "io/scene_file.h"
 #include "io/stl.h"
+#include "io/texture_files.h"
 
 namespace crescente::io {
 namespace {
@@ -19,6 +20,14 @@ namespace {
 template <auto read>
 Expected<Loaded> at_once(const std::filesystem::path& file, const ReadOptions&) {
     return read(file);
+}
+
+Expected<Loaded> with_textures(Expected<Loaded> read, const std::filesystem::path& file, const ReadOptions& options) {
+    if (!read) return read;
+    auto warnings = load_textures(read->scene.materials, file.string(), {options.texture_pattern});
+    if (!warnings) return tl::unexpected(std::move(warnings.error()));
+    read->warnings.insert(read->warnings.end(), std::make_move_iterator(warnings->begin()), std::make_move_iterator(warnings->end()));
+    return read;
 }
 
 }  // namespace
@@ -35,7 +44,7 @@ std::span<const Format> formats() {
         {"IGES", {".iges", ".igs"}, "Exact faces, names and colours. Unit as the file says, z up.", read_cad_file},
         {"OpenCASCADE BREP", {".brep", ".brp", ".rle"}, "Exact faces, as text or binary. No unit (millimetres), z up.", read_cad_file},
         {"glTF 2.0", {".gltf", ".glb"},
-         "Meshes, hierarchy, instances, cameras, punctual lights, physical materials by their factors. Metres, y up.", at_once<read_gltf_file>},
+         "Meshes, hierarchy, instances, cameras, punctual lights, physical materials with their textures. Metres, y up.", at_once<read_gltf_file>},
         {"Wavefront OBJ", {".obj"}, "Polygons with MTL materials. No unit (metres), y up.", at_once<read_mesh_file>},
         {"PLY", {".ply"}, "Polygons. No unit (metres), z up.", at_once<read_ply_file>},
         {"STL", {".stl"}, "Triangles. No unit (millimetres, by custom), z up. Edges sharper than 40 degrees stay sharp.", at_once<read_stl_file>},
@@ -59,7 +68,7 @@ Expected<Loaded> read_scene(const std::filesystem::path& file, const ReadOptions
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     std::vector<std::string> known;
     for (const Format& format : formats()) {
-        if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return format.read(file, options);
+        if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return with_textures(format.read(file, options), file, options);
         known.insert(known.end(), format.extensions.begin(), format.extensions.end());
     }
     std::error_code code;

@@ -28,6 +28,7 @@ struct ReadOptions {
     std::function<void(double fraction, std::string_view stage)> progress;  // called now and then, by the calling thread; may be empty
     std::function<bool()> cancelled;                                        // asked now and then; true ends the reading with an error
     LogSink log;                                                            // what libraries have to say; may be empty
+    bool texture_pattern = false;                                           // see TextureOptions::pattern
 };
 
 struct Format {
@@ -39,7 +40,7 @@ struct Format {
 
 std::span<const Format> formats();
 
-// Reads any format, chosen by extension. Errors: missing file, unknown extension (with what is known), and what the reader finds. The scene
+// Reads any format, chosen by extension, and the pictures of its textures. Errors: missing file, unknown extension (with what is known), and what the reader finds. The scene
 // is not validated yet (scene/validate.h).
 Expected<Loaded> read_scene(const std::filesystem::path& file, const ReadOptions& options = {});
 

@@ -16,7 +16,7 @@ namespace {
 using math::Affine;
 using math::Vec3;
 
-// Extensions that are read, or whose absence changes nothing beyond the textures that are not applied anyway.
+// Extensions that are read, or whose absence changes nothing.
 const std::vector<std::string> known_extensions{
     "KHR_lights_punctual",        "KHR_materials_emissive_strength", "KHR_materials_ior",
     "KHR_materials_transmission", "KHR_materials_volume",            "KHR_materials_unlit",
@@ -52,7 +52,7 @@ public:
         tell(counts_.lines_and_points, " primitives are points or lines and are not shown");
         tell(counts_.degenerate, " triangles have no area and were dropped");
         tell(counts_.bad_normals, " normals have no direction: the face's is taken");
-        tell(counts_.vertex_colors, " primitives have vertex colours, which are not applied");
+        tell(counts_.bad_attributes, " texture coordinates, colours or tangents are no finite numbers: 0 is taken");
         tell(counts_.morph_targets, " primitives have morph targets, which are not applied");
         tell(document_.array("animations").size(), " animations are not applied");
         tell(skins_, " nodes have skins, which are not applied: they are shown as modelled");

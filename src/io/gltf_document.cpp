@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/base64.h"
 #include "io/text_file.h"
 
 namespace crescente::io {
@@ -37,29 +38,7 @@ int components_of(std::string_view type) {
     return 0;
 }
 
-// RFC 4648, section 4; nothing if there is any other character.
-std::optional<std::string> decode_base64(std::string_view text) {
-    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-    std::string bytes;
-    bytes.reserve(text.size() / 4 * 3 + 3);
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        int value;
-        if (c >= 'A' && c <= 'Z') value = c - 'A';
-        else if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
-        else if (c >= '0' && c <= '9') value = c - '0' + 52;
-        else if (c == '+') value = 62;
-        else if (c == '/') value = 63;
-        else return std::nullopt;
-        bits = bits << 6 | static_cast<std::uint32_t>(value);
-        count += 6;
-        if (count < 8) continue;
-        count -= 8;
-        bytes.push_back(static_cast<char>(bits >> count & 0xff));
-    }
-    return bytes;
-}
+std::string outside_folder(const std::string& name) { return "'" + name.substr(0, 100) + "' is refused: only files in the folder of this file are read"; }
 
 // RFC 3986, section 2.1.
 std::string decode_percent(std::string_view text) {
@@ -193,7 +172,7 @@ std::optional<std::string> GltfDocument::load_uri(const std::string& uri, std::s
     }
     const std::string name = decode_percent(uri);
     if (!stays_in_folder(name)) {
-        reason = "'" + name.substr(0, 100) + "' is refused: only files in the folder of this file are read";
+        reason = outside_folder(name);
         return std::nullopt;
     }
     auto bytes = read_whole_file(folder_ / name);
@@ -375,16 +354,27 @@ std::optional<GltfAccessor> GltfDocument::accessor(std::size_t which) {
     return accessor;
 }
 
-std::string GltfDocument::image_bytes(std::size_t image) {
+std::optional<scene::ImageSource> GltfDocument::image_source(std::size_t image) {
     const Json& object = array("images")[image];
-    if (const Json* uri = object.find("uri"); uri && uri->text()) {
-        std::string reason;
-        return load_uri(*uri->text(), reason).value_or(std::string{});
-    }
     const Place root, list = root / "images", place = list / image;
+    if (const Json* uri = object.find("uri"); uri && uri->text()) {
+        if (uri->text()->starts_with("data:")) {
+            std::string reason;
+            auto bytes = load_uri(*uri->text(), reason);
+            if (bytes) return scene::ImageSource{{}, std::move(*bytes), place.pointer()};
+            problems.add(*uri, place / "uri", reason);
+            return std::nullopt;
+        }
+        const std::string name = decode_percent(*uri->text());
+        if (stays_in_folder(name)) return scene::ImageSource{(folder_ / name).string(), {}, place.pointer()};
+        problems.add(*uri, place / "uri", outside_folder(name));
+        return std::nullopt;
+    }
     const auto view = index(object, place, "bufferView", array("bufferViews").size());
     const auto bytes = view ? view_bytes(*view) : std::nullopt;
-    return std::string(bytes.value_or(std::string_view{}));
+    if (bytes) return scene::ImageSource{{}, std::string(*bytes), place.pointer()};
+    if (!view) problems.add(object, place, "has neither uri nor bufferView");
+    return std::nullopt;
 }
 
 }  // namespace crescente::io

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "io/json_text.h"
+#include "scene/texture_image.h"
 
 namespace crescente::io {
 
@@ -65,8 +66,8 @@ public:
     std::optional<std::string_view> view_bytes(std::size_t view);
     std::optional<GltfAccessor> accessor(std::size_t index);
 
-    // The encoded bytes of an image, empty where they cannot be had; that is no problem, for pictures are decoration.
-    std::string image_bytes(std::size_t image);
+    // Where an image is: a file, which is not opened, or bytes.
+    std::optional<scene::ImageSource> image_source(std::size_t image);
 
     std::size_t total_bytes() const { return total_bytes_; }  // of the file and its buffers: what counts in it are held against
 

@@ -33,8 +33,8 @@ bool promises_too_much(std::string_view bytes) {
 
 bool can_decode_draco() { return true; }
 
-std::optional<DracoMesh> decode_draco(std::string_view bytes, int position_id, int normal_id) {
-    if (promises_too_much(bytes) || position_id < 0) return std::nullopt;
+std::optional<DracoMesh> decode_draco(std::string_view bytes, const DracoIds& ids) {
+    if (promises_too_much(bytes) || ids.positions < 0) return std::nullopt;
     draco::DecoderBuffer buffer;
     buffer.Init(bytes.data(), bytes.size());
     draco::Decoder decoder;
@@ -45,21 +45,33 @@ std::optional<DracoMesh> decode_draco(std::string_view bytes, int position_id, i
         const draco::PointAttribute* found = id < 0 ? nullptr : mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
         return found && found->num_components() == 3 ? found : nullptr;
     };
-    const draco::PointAttribute *positions = attribute(position_id), *normals = attribute(normal_id);
-    if (!positions || (normal_id >= 0 && !normals)) return std::nullopt;
+    const draco::PointAttribute *positions = attribute(ids.positions), *normals = attribute(ids.normals);
+    if (!positions || (ids.normals >= 0 && !normals)) return std::nullopt;
 
     DracoMesh result;
     const std::uint32_t points = mesh->num_points();
     const auto read = [](const draco::PointAttribute& from, std::uint32_t point, double* to) {
         const draco::AttributeValueIndex value = from.mapped_index(draco::PointIndex(point));
-        return value.value() < from.size() && from.ConvertValue<double>(value, 3, to);
+        return value.value() < from.size() && from.ConvertValue<double>(value, from.num_components(), to);
     };
+    std::array<const draco::PointAttribute*, 4> others{};
+    for (std::size_t k = 0; k < others.size(); ++k) {
+        if (ids.attributes[k] < 0) continue;
+        others[k] = mesh->GetAttributeByUniqueId(static_cast<std::uint32_t>(ids.attributes[k]));
+        if (!others[k] || others[k]->num_components() < 1 || others[k]->num_components() > 4) return std::nullopt;
+        result.components[k] = others[k]->num_components();
+    }
     for (std::uint32_t i = 0; i < points; ++i) {
         std::array<double, 3> v;
         if (!read(*positions, i, v.data())) return std::nullopt;
         result.positions.push_back({v[0], v[1], v[2]});
         if (normals && !read(*normals, i, v.data())) return std::nullopt;
         if (normals) result.normals.push_back(v);
+        for (std::size_t k = 0; k < others.size(); ++k) {
+            std::array<double, 4> value;
+            if (others[k] && !read(*others[k], i, value.data())) return std::nullopt;
+            if (others[k]) result.attributes[k].insert(result.attributes[k].end(), value.begin(), value.begin() + result.components[k]);
+        }
     }
     for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
         for (const draco::PointIndex& point : mesh->face(draco::FaceIndex(f))) {
@@ -71,7 +83,7 @@ std::optional<DracoMesh> decode_draco(std::string_view bytes, int position_id, i
 }
 #else
 bool can_decode_draco() { return false; }
-std::optional<DracoMesh> decode_draco(std::string_view, int, int) { return std::nullopt; }
+std::optional<DracoMesh> decode_draco(std::string_view, const DracoIds&) { return std::nullopt; }
 #endif
 
 }  // namespace crescente::io

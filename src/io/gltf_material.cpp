@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace crescente::io {
 namespace {
@@ -13,7 +14,25 @@ Rgb rgb(const Vector& v) { return {static_cast<float>(v[0]), static_cast<float>(
 
 Vector times(const Vector& a, const Vector& b) { return {a[0] * b[0], a[1] * b[1], a[2] * b[2]}; }
 
+scene::Texture of_channel(scene::Texture texture, scene::Channel channel) {
+    texture.channel = channel;
+    return texture;
+}
+
 }  // namespace
+
+GltfMaterials::GltfMaterials(GltfDocument& document) : document_(document) {
+    for (const Json& mesh : document_.array("meshes")) {
+        const Json* primitives = mesh.find("primitives");
+        if (!primitives || !primitives->array()) continue;
+        for (const Json& primitive : *primitives->array()) {
+            const Json *attributes = primitive.find("attributes"), *material = primitive.find("material");
+            if (!attributes || !attributes->find("COLOR_0")) continue;
+            const std::int64_t* index = material ? material->integer() : nullptr;
+            colored_.insert(index && *index >= 0 ? std::optional(static_cast<std::size_t>(*index)) : std::nullopt);
+        }
+    }
+}
 
 scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
     scene::PhysicalMaterial m;  // the default material, 3.9.6
@@ -21,7 +40,13 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
     m.metallic = 1;
     m.roughness = 1;
     m.double_sided = false;
-    if (!which) return {"", m};
+    std::vector<scene::TextureBinding> textures;
+    const auto bind = [&](std::string target, scene::Texture texture) { textures.push_back({std::move(target), std::move(texture)}); };
+    scene::Texture vertex_colors;
+    vertex_colors.kind = scene::TextureKind::vertex_color;
+    const bool colored = colored_.contains(which);
+    if (!which && colored) bind("base_color", vertex_colors);
+    if (!which) return {"", m, std::move(textures)};
 
     const Place root, list = root / "materials", place = list / *which;
     const Json& object = document_.array("materials")[*which];
@@ -36,50 +61,64 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
     };
 
     const std::string alpha_mode = document_.text(object, place, "alphaMode");
-    const double cutoff = document_.number(object, place, "alphaCutoff", 0.5);
+    const bool unlit = GltfDocument::extension(object, "KHR_materials_unlit") != nullptr;
     std::array<double, 4> base{1, 1, 1, 1};
-    double texture_cutoff = 0.5;
-    const auto apply_base = [&](const Json& of, std::string_view factor, std::string_view texture) {
-        base = document_.numbers<4>(of, place, factor, base);
-        texture_cutoff = base[3] > 0 ? cutoff / base[3] : 2;
-        return mean(of, place, texture, texture_cutoff);
-    };
-
-    std::optional<ImageMean> color_mean;
+    std::optional<scene::Texture> base_texture;
     if (const Json* glossy = GltfDocument::extension(object, "KHR_materials_pbrSpecularGlossiness")) {
-        color_mean = apply_base(*glossy, "diffuseFactor", "diffuseTexture");
+        base = document_.numbers<4>(*glossy, place, "diffuseFactor", base);
+        base_texture = texture(*glossy, place, "diffuseTexture");
         m.metallic = 0;
         m.roughness = 1 - document_.number(*glossy, place, "glossinessFactor", 1);
+        if (glossy->find("specularGlossinessTexture")) ++glossy_textures_;
     } else {
         const Json& pbr = member(object, "pbrMetallicRoughness");
-        color_mean = apply_base(pbr, "baseColorFactor", "baseColorTexture");
+        base = document_.numbers<4>(pbr, place, "baseColorFactor", base);
+        base_texture = texture(pbr, place, "baseColorTexture");
         m.metallic = document_.number(pbr, place, "metallicFactor", 1);
         m.roughness = document_.number(pbr, place, "roughnessFactor", 1);
-        if (const auto texture = mean(pbr, place, "metallicRoughnessTexture")) {
-            m.roughness *= texture->data[1];
-            m.metallic *= texture->data[2];
+        if (const auto both = texture(pbr, place, "metallicRoughnessTexture"); both && !unlit) {
+            bind("metallic", of_channel(*both, scene::Channel::blue));
+            bind("roughness", of_channel(*both, scene::Channel::green));
         }
     }
+    if (auto occlusion = texture(object, place, "occlusionTexture"); occlusion && !unlit) {
+        occlusion->strength = document_.number(*object.find("occlusionTexture"), place / "occlusionTexture", "strength", 1);
+        bind("occlusion", std::move(*occlusion));
+    }
     m.base_color = rgb({base[0], base[1], base[2]});
-    if (color_mean) m.base_color = rgb(times({base[0], base[1], base[2]}, color_mean->color));
-    if (alpha_mode == "BLEND") m.opacity = base[3] * (color_mean ? color_mean->alpha : 1);
-    if (alpha_mode == "MASK") m.opacity = color_mean ? color_mean->covered : base[3] >= cutoff ? 1 : 0;
+    const std::string color_target = unlit ? "emissive" : "base_color";
+    if (base_texture) bind(color_target, *base_texture);
+    if (alpha_mode == "BLEND" || alpha_mode == "MASK") {
+        const double cutoff = alpha_mode == "MASK" ? std::clamp(document_.number(object, place, "alphaCutoff", 0.5), 0.0, 1.0) : 0;
+        m.opacity = base[3];
+        if (base_texture) bind("opacity", of_channel(*base_texture, scene::Channel::alpha));
+        if (colored) bind("opacity", of_channel(vertex_colors, scene::Channel::alpha));
+        if (base_texture || colored) textures.back().texture.cutoff = cutoff;
+        else if (cutoff > 0) m.opacity = base[3] >= cutoff ? 1 : 0;
+    }
+    if (colored) bind(color_target, vertex_colors);
+    if (auto normal = texture(object, place, "normalTexture"); normal && !unlit) {
+        normal->strength = document_.number(*object.find("normalTexture"), place / "normalTexture", "scale", 1);
+        bind("normal", std::move(*normal));
+    }
 
-    Vector emissive = document_.numbers<3>(object, place, "emissiveFactor", {0, 0, 0});
-    if (const auto texture = mean(object, place, "emissiveTexture")) emissive = times(emissive, texture->color);
+    const Vector emissive = document_.numbers<3>(object, place, "emissiveFactor", {0, 0, 0});
     const double strength = document_.number(extension("KHR_materials_emissive_strength"), place, "emissiveStrength", 1);
     m.emissive = rgb(times(emissive, {strength, strength, strength}));
+    if (auto glow = texture(object, place, "emissiveTexture"); glow && !unlit && !math::is_black(m.emissive)) bind("emissive", std::move(*glow));
 
     m.ior = document_.number(extension("KHR_materials_ior"), place, "ior", 1.5);
     const Json& transmission = extension("KHR_materials_transmission");
     m.transmission = document_.number(transmission, place, "transmissionFactor", 0);
-    if (const auto texture = mean(transmission, place, "transmissionTexture")) m.transmission *= texture->data[0];
+    if (auto share = texture(transmission, place, "transmissionTexture"); share && m.transmission > 0) bind("transmission", std::move(*share));
 
     const Json& clearcoat = extension("KHR_materials_clearcoat");
     m.clearcoat = document_.number(clearcoat, place, "clearcoatFactor", 0);
     m.clearcoat_roughness = document_.number(clearcoat, place, "clearcoatRoughnessFactor", 0);
-    if (const auto texture = mean(clearcoat, place, "clearcoatTexture")) m.clearcoat *= texture->data[0];
-    if (const auto texture = mean(clearcoat, place, "clearcoatRoughnessTexture")) m.clearcoat_roughness *= texture->data[1];
+    if (auto coat = texture(clearcoat, place, "clearcoatTexture"); coat && m.clearcoat > 0) bind("clearcoat", of_channel(*coat, scene::Channel::red));
+    if (auto rough = texture(clearcoat, place, "clearcoatRoughnessTexture"); rough && m.clearcoat > 0) {
+        bind("clearcoat_roughness", of_channel(*rough, scene::Channel::green));
+    }
 
     const Json& volume = extension("KHR_materials_volume");
     const double distance = document_.number(volume, place, "attenuationDistance", 0);  // absent: infinite
@@ -90,41 +129,73 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
         m.attenuation = rgb(absorbed);
     }
     m.double_sided = document_.boolean(object, place, "doubleSided", false);
-    if (GltfDocument::extension(object, "KHR_materials_unlit")) {
+    if (unlit) {
         m.emissive = m.base_color;
         m.base_color = {0, 0, 0};
         m.metallic = 0;
         m.roughness = 1;
     }
-    for (const std::string_view unused : {"normalTexture", "occlusionTexture"}) {
-        if (const Json* info = object.find(unused)) {
-            if (const auto texture = document_.index(*info, place, "index", document_.array("textures").size())) textures_.try_emplace(*texture, false);
-        }
-    }
-    return {document_.text(object, place, "name"), m};
+    return {document_.text(object, place, "name"), m, std::move(textures)};
 }
 
-std::optional<ImageMean> GltfMaterials::mean(const Json& owner, const Place& place, std::string_view key, double alpha_cutoff) {
-    const Json* info = owner.find(key);
-    if (!info) return std::nullopt;
-    const Json::Array& textures = document_.array("textures");
-    const auto texture = document_.index(*info, place / key, "index", textures.size());
-    if (!texture) return std::nullopt;
-    bool& stands_in = textures_.try_emplace(*texture, false).first->second;
-    const Place root, list = root / "textures";
-    const auto image = document_.index(textures[*texture], list / *texture, "source", document_.array("images").size());
-    if (!image) return std::nullopt;
-    const auto [known, is_new] = means_.try_emplace({*image, alpha_cutoff});
-    if (is_new) known->second = mean_of_image(document_.image_bytes(*image), alpha_cutoff, pixels_left_);
-    if (known->second) stands_in = true;
+std::shared_ptr<const scene::TextureImage> GltfMaterials::image(std::size_t which) {
+    const auto [known, is_new] = images_.try_emplace(which);
+    if (is_new) {
+        if (auto source = document_.image_source(which)) known->second = std::make_shared<const scene::TextureImage>(std::move(*source));
+    }
     return known->second;
 }
 
+std::optional<scene::Texture> GltfMaterials::texture(const Json& owner, const Place& owner_place, std::string_view key) {
+    const Json* info = owner.find(key);
+    if (!info) return std::nullopt;
+    const Place place = owner_place / key, root, list = root / "textures", samplers = root / "samplers";
+    const Json::Array& textures = document_.array("textures");
+    const auto index = document_.index(*info, place, "index", textures.size());
+    if (!index) return std::nullopt;
+    const Json& object = textures[*index];
+    if (!object.find("source")) {
+        ++other_sources_;
+        return std::nullopt;
+    }
+    const auto source = document_.index(object, list / *index, "source", document_.array("images").size());
+    scene::Texture texture;
+    texture.image = source ? image(*source) : nullptr;
+    if (!texture.image) return std::nullopt;
+
+    const Json* transform = GltfDocument::extension(*info, "KHR_texture_transform");
+    double set = document_.number(*info, place, "texCoord", 0);
+    if (transform) {
+        const Place here = place / "KHR_texture_transform";
+        const auto offset = document_.numbers<2>(*transform, here, "offset", {0, 0}), scale = document_.numbers<2>(*transform, here, "scale", {1, 1});
+        texture.offset_u = offset[0], texture.offset_v = offset[1], texture.scale_u = scale[0], texture.scale_v = scale[1];
+        texture.rotation = document_.number(*transform, here, "rotation", 0);
+        set = document_.number(*transform, here, "texCoord", set);
+    }
+    if (!(set == 0 || set == 1)) {
+        document_.problems.add(*info, place / "texCoord", "must be 0 or 1: two sets of texture coordinates are read");
+        return std::nullopt;
+    }
+    texture.set = static_cast<int>(set);
+
+    if (const auto sampler = document_.index(object, list / *index, "sampler", document_.array("samplers").size())) {
+        const Json& how = document_.array("samplers")[*sampler];
+        const auto wrap = [&](std::string_view member) {
+            const double code = document_.number(how, samplers / *sampler, member, 10497);
+            if (code == 33071) return scene::Wrap::clamp;
+            if (code == 33648) return scene::Wrap::mirror;
+            if (code != 10497) document_.problems.add(how, samplers / *sampler, "has a wrap mode that glTF does not know");
+            return scene::Wrap::repeat;
+        };
+        texture.wrap_u = wrap("wrapS"), texture.wrap_v = wrap("wrapT");
+        if (document_.number(how, samplers / *sampler, "magFilter", 9729) == 9728) texture.filter = scene::TextureFilter::nearest;
+    }
+    return texture;
+}
+
 void GltfMaterials::warn_of_textures() {
-    if (textures_.empty()) return;
-    const auto means = static_cast<std::size_t>(std::count_if(textures_.begin(), textures_.end(), [](const auto& t) { return t.second; }));
-    document_.warn(std::to_string(textures_.size()) + " textures are not applied: of " + std::to_string(means) +
-                   " the mean stands in, of the others nothing but the factor");
+    if (glossy_textures_ > 0) document_.warn(std::to_string(glossy_textures_) + " textures of specular colour and glossiness are left out: their factors are taken");
+    if (other_sources_ > 0) document_.warn(std::to_string(other_sources_) + " textures have their picture in an extension that is not read, and are left out");
 }
 
 }  // namespace crescente::io

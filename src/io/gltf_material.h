@@ -1,31 +1,33 @@
-// Materials of a glTF file as physical materials: factors, and the mean of the textures that they are multiplied with.
+// Materials of a glTF file as physical materials with their textures.
 #pragma once
 
 #include <map>
 #include <optional>
+#include <set>
 
 #include "io/gltf_document.h"
-#include "io/image_mean.h"
 #include "scene/material.h"
 
 namespace crescente::io {
 
 class GltfMaterials {
 public:
-    explicit GltfMaterials(GltfDocument& document) : document_(document) {}
+    explicit GltfMaterials(GltfDocument& document);
 
-    // Nothing: the material of primitives that name none.
+    // Nothing: the material of primitives that name none. Pictures are named, not read (io/texture_files.h).
     scene::Material read(std::optional<std::size_t> which);
 
     void warn_of_textures();  // once, after the last
 
 private:
-    std::optional<ImageMean> mean(const Json& owner, const Place& place, std::string_view key, double alpha_cutoff = 0.5);
+    // The texture that a member of an object names; nothing: none, or a problem, which is told.
+    std::optional<scene::Texture> texture(const Json& owner, const Place& place, std::string_view key);
+    std::shared_ptr<const scene::TextureImage> image(std::size_t which);
 
     GltfDocument& document_;
-    std::map<std::pair<std::size_t, double>, std::optional<ImageMean>> means_;  // by image and cutoff
-    std::map<std::size_t, bool> textures_;                                       // seen: whether a mean stands in
-    std::size_t pixels_left_ = std::size_t{1} << 27;                             // decoding is bounded over the whole file
+    std::map<std::size_t, std::shared_ptr<const scene::TextureImage>> images_;
+    std::set<std::optional<std::size_t>> colored_;  // materials that some primitive with vertex colours has
+    std::size_t glossy_textures_ = 0, other_sources_ = 0;
 };
 
 }  // namespace crescente::io

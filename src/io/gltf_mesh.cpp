@@ -1,6 +1,7 @@
 #include "io/gltf_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -14,10 +15,16 @@ namespace {
 using geometry::Mesh;
 using math::Vec3;
 
+// What textures go by, as the mesh keeps it (geometry/mesh.h).
+enum Attribute : std::size_t { first_coordinates, second_coordinates, colors, tangents, attribute_count };
+constexpr std::string_view attribute_names[attribute_count] = {"TEXCOORD_0", "TEXCOORD_1", "COLOR_0", "TANGENT"};
+constexpr int least_components[attribute_count] = {2, 2, 3, 4}, most_components[attribute_count] = {2, 2, 4, 4};
+
 // Where a primitive's vertices come from: accessors, or what Draco decoded.
 struct Vertices {
     std::size_t count = 0;
     std::optional<GltfAccessor> positions, normals;
+    std::array<std::optional<GltfAccessor>, attribute_count> attributes;
     std::optional<DracoMesh> draco;
 
     bool has_normals() const { return draco ? !draco->normals.empty() : normals.has_value(); }
@@ -27,6 +34,20 @@ struct Vertices {
     Vec3 normal(std::size_t i) const {
         if (draco) return {draco->normals[i][0], draco->normals[i][1], draco->normals[i][2]};
         return {normals->number(i, 0), normals->number(i, 1), normals->number(i, 2)};
+    }
+    bool has(Attribute which) const { return draco ? !draco->attributes[which].empty() : attributes[which].has_value(); }
+    // Colours without alpha have 1; a vertex without the attribute the value that changes nothing.
+    std::array<double, 4> attribute(Attribute which, std::size_t i) const {
+        std::array<double, 4> value{0, 0, 0, 1};
+        if (which == colors) value = {1, 1, 1, 1};
+        if (!has(which)) return value;
+        if (draco) {
+            const int n = draco->components[which];
+            for (int k = 0; k < n; ++k) value[static_cast<std::size_t>(k)] = draco->attributes[which][i * static_cast<std::size_t>(n) + static_cast<std::size_t>(k)];
+        } else {
+            for (int k = 0; k < attributes[which]->components; ++k) value[static_cast<std::size_t>(k)] = attributes[which]->number(i, k);
+        }
+        return value;
     }
 };
 
@@ -48,6 +69,8 @@ private:
 
 constexpr int points = 0, triangles = 4, strip = 5, fan = 6;  // modes of a primitive
 
+using Key = std::array<std::size_t, 2 + attribute_count>;  // accessors: positions, normals, attributes
+
 class MeshReader {
 public:
     MeshReader(GltfDocument& document, std::size_t which, GltfMeshCounts& counts)
@@ -63,6 +86,7 @@ public:
         for (const Json& primitive : *primitives->array()) {
             const Json* attributes = primitive.find("attributes");
             if (attributes && attributes->find("NORMAL")) with_normals_ = true;
+            for (std::size_t k = 0; attributes && k < attribute_count; ++k) with_[k] = with_[k] || attributes->find(attribute_names[k]);
         }
         for (std::size_t i = 0; i < primitives->array()->size(); ++i) {
             read_primitive((*primitives->array())[i], place_ / "primitives" / i);
@@ -75,7 +99,6 @@ private:
     void read_primitive(const Json& primitive, const Place& place) {
         const Json* attributes = primitive.find("attributes");
         if (!attributes || !attributes->object()) return document_.problems.add(primitive, place, "has no attributes");
-        if (attributes->find("COLOR_0")) ++counts_.vertex_colors;
         if (primitive.find("targets")) ++counts_.morph_targets;
         const double given = document_.number(primitive, place, "mode", triangles);
         const int mode = given >= points && given <= fan ? static_cast<int>(given) : -1;
@@ -86,10 +109,11 @@ private:
         }
         Vertices vertices;
         std::vector<std::uint32_t> corners;
-        std::pair<std::size_t, std::size_t> key;  // which vertices can be shared with other primitives
+        Key key;  // which vertices can be shared with other primitives
         if (const Json* draco = GltfDocument::extension(primitive, "KHR_draco_mesh_compression")) {
             if (!read_draco(*draco, place, vertices, corners)) return;
-            key = {none, draco_keys_++};
+            key.fill(none);
+            key[1] = draco_keys_++;
         } else if (!read_accessors(primitive, *attributes, place, vertices, corners, key)) {
             return;
         }
@@ -102,7 +126,7 @@ private:
     }
 
     bool read_accessors(const Json& primitive, const Json& attributes, const Place& place, Vertices& vertices,
-                        std::vector<std::uint32_t>& corners, std::pair<std::size_t, std::size_t>& key) {
+                        std::vector<std::uint32_t>& corners, Key& key) {
         const std::size_t limit = document_.array("accessors").size();
         const auto position = document_.index(attributes, place, "POSITION", limit);
         const auto normal = document_.index(attributes, place, "NORMAL", limit);
@@ -111,7 +135,8 @@ private:
             if (!attributes.find("POSITION")) document_.problems.add(primitive, place, "has no positions");
             return false;
         }
-        key = {*position, normal.value_or(none)};
+        key.fill(none);
+        key[0] = *position, key[1] = normal.value_or(none);
         vertices.positions = document_.accessor(*position);
         if (normal) vertices.normals = document_.accessor(*normal);
         if (!vertices.positions || (normal && !vertices.normals)) return false;
@@ -119,6 +144,17 @@ private:
         if (vertices.positions->components != 3) return tell(primitive, place, "has positions that are not VEC3");
         if (vertices.normals && vertices.normals->components != 3) return tell(primitive, place, "has normals that are not VEC3");
         if (vertices.normals && vertices.normals->count < vertices.count) return tell(primitive, place, "has fewer normals than positions");
+        for (std::size_t k = 0; k < attribute_count; ++k) {
+            const auto which = document_.index(attributes, place, attribute_names[k], limit);
+            if (!which) continue;
+            key[2 + k] = *which;
+            vertices.attributes[k] = document_.accessor(*which);
+            if (!vertices.attributes[k]) return false;
+            const int components = vertices.attributes[k]->components;
+            const std::string name(attribute_names[k]);
+            if (components < least_components[k] || components > most_components[k]) return tell(primitive, place, "has " + name + " of " + std::to_string(components) + " components");
+            if (vertices.attributes[k]->count < vertices.count) return tell(primitive, place, "has fewer of " + name + " than positions");
+        }
 
         std::optional<GltfAccessor> list;
         if (primitive.find("indices")) {
@@ -152,8 +188,20 @@ private:
         const double position = document_.number(*ids, place, "POSITION", -1), normal = document_.number(*ids, place, "NORMAL", -1);
         constexpr double most = 1e6;
         if (!(position >= 0 && position < most && normal < most)) return tell(draco, place, "has Draco data without positions");
-        vertices.draco = decode_draco(*bytes, static_cast<int>(position), static_cast<int>(normal));
+        DracoIds wanted{static_cast<int>(position), static_cast<int>(normal), {}};
+        for (std::size_t k = 0; k < attribute_count; ++k) {
+            const double id = document_.number(*ids, place, attribute_names[k], -1);
+            if (!(id < most)) return tell(draco, place, "has Draco data without " + std::string(attribute_names[k]));
+            wanted.attributes[k] = static_cast<int>(id);
+        }
+        vertices.draco = decode_draco(*bytes, wanted);
         if (!vertices.draco) return tell(draco, place, "has Draco data that cannot be decoded");
+        for (std::size_t k = 0; k < attribute_count; ++k) {
+            const int components = vertices.draco->components[k];
+            if (wanted.attributes[k] >= 0 && (components < least_components[k] || components > most_components[k])) {
+                return tell(draco, place, "has " + std::string(attribute_names[k]) + " of " + std::to_string(components) + " components");
+            }
+        }
         vertices.count = vertices.draco->positions.size();
         corners = std::move(vertices.draco->indices);
         return take_corners(corners.size() / 64, draco, place);
@@ -189,7 +237,7 @@ private:
         return static_cast<std::uint16_t>(result_.materials.size() - 1);
     }
 
-    void append(const Vertices& vertices, const std::vector<std::uint32_t>& corners, std::pair<std::size_t, std::size_t> key,
+    void append(const Vertices& vertices, const std::vector<std::uint32_t>& corners, const Key& key,
                 std::uint16_t slot, const Json& primitive, const Place& place) {
         Mesh& mesh = result_.mesh;
         const bool flat = !vertices.has_normals();
@@ -215,11 +263,28 @@ private:
                     vertex = static_cast<std::uint32_t>(mesh.positions.size());
                     mesh.positions.push_back(p[k]);
                     if (with_normals_) push_normal(flat ? face : vertices.normal(corners[i + k]), face / area);
+                    push_attributes(vertices, corners[i + k]);
                 }
                 triangle[k] = vertex;
             }
             mesh.triangles.push_back(triangle);
             mesh.slots.push_back(slot);
+        }
+    }
+
+    // So that every position has each that some primitive has.
+    void push_attributes(const Vertices& vertices, std::uint32_t vertex) {
+        Mesh& mesh = result_.mesh;
+        for (std::size_t k = 0; k < attribute_count; ++k) {
+            if (!with_[k]) continue;
+            const std::array<double, 4> from = vertices.attribute(static_cast<Attribute>(k), vertex);
+            std::array<float, 4> value;
+            for (std::size_t c = 0; c < 4; ++c) {
+                value[c] = static_cast<float>(from[c]);
+                if (!std::isfinite(value[c])) value[c] = 0, ++counts_.bad_attributes;
+            }
+            if (k <= second_coordinates) mesh.coordinates[k].push_back({value[0], value[1]});
+            else (k == colors ? mesh.colors : mesh.tangents).push_back(value);
         }
     }
 
@@ -243,8 +308,9 @@ private:
     const Place root_, list_, place_;
     GltfMesh result_;
     bool with_normals_ = false;
+    std::array<bool, attribute_count> with_{};
     std::size_t draco_keys_ = 0;
-    std::map<std::pair<std::size_t, std::size_t>, VertexMap> maps_;  // by the accessors of positions and normals
+    std::map<Key, VertexMap> maps_;
 };
 
 }  // namespace

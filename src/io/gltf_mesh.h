@@ -16,7 +16,7 @@ struct GltfMesh {
 
 // What was left out, over all meshes of a file.
 struct GltfMeshCounts {
-    std::size_t lines_and_points = 0, degenerate = 0, bad_normals = 0, vertex_colors = 0, morph_targets = 0;
+    std::size_t lines_and_points = 0, degenerate = 0, bad_normals = 0, bad_attributes = 0, morph_targets = 0;
     std::size_t corners = 0;  // read so far; held against the size of the file
 };
 

@@ -1,7 +1,6 @@
 # Libraries that read foreign formats. One that is missing, or switched off, switches off its formats: they are still listed and say why
 # they cannot be read.
 option(CRESCENTE_DRACO "Read glTF meshes compressed by Draco" ON)
-option(CRESCENTE_TINYGLTF "Take the mean of glTF textures for the materials, by tinygltf's picture decoder" ON)
 
 if(CRESCENTE_ASSIMP)
     # Not by assimp's own configuration: on Debian it demands the development files of libraries that only assimp itself needs.
@@ -25,16 +24,6 @@ if(CRESCENTE_DRACO)
         target_compile_definitions(io PRIVATE CRESCENTE_WITH_DRACO)
     else()
         message(STATUS "Draco was not found: compressed glTF meshes are switched off")
-    endif()
-endif()
-
-if(CRESCENTE_TINYGLTF)
-    find_package(TinyGLTF QUIET)
-    if(TARGET TinyGLTF::TinyGLTF)
-        target_link_libraries(io PRIVATE TinyGLTF::TinyGLTF)
-        target_compile_definitions(io PRIVATE CRESCENTE_WITH_TINYGLTF)
-    else()
-        message(STATUS "tinygltf was not found: glTF materials take their factors without the mean of the textures")
     endif()
 endif()
 

@@ -65,8 +65,8 @@ std::string lower_extension(const std::string& file_name) {
 
 class SceneBuilder {
 public:
-    SceneBuilder(const aiScene& from, const std::string& file, const std::string& extension)
-        : from_(from), file_(file), extension_(extension), convention_(convention_of(extension)) {}
+    SceneBuilder(const aiScene& from, const std::string& file, const std::string& extension, const std::filesystem::path& folder)
+        : from_(from), file_(file), extension_(extension), folder_(folder), convention_(convention_of(extension)) {}
 
     Expected<Loaded> build() {
         loaded_.scene.unit = convention_.unit;
@@ -181,48 +181,68 @@ private:
         }
         degenerate_ += repaired.zero_area;
         if (mesh.triangles.empty()) return {};
-        geometry::weld_vertices(mesh);
+        Shown shown;
+        shown.material = material_of(from);
+        const bool textured = shown.material.valid() && !loaded_.scene.materials[shown.material.value].textures.empty();
+        if (textured) read_attributes(from, mesh);
         if (mesh.normals.empty()) {
             constexpr double crease_angle = 40 * math::pi / 180;
-            geometry::smooth_normals(mesh, crease_angle);
+            geometry::Mesh bare;
+            bare.positions = mesh.positions, bare.triangles = mesh.triangles;
+            geometry::weld_vertices(bare);
+            geometry::smooth_normals(bare, crease_angle);
+            if (textured) {
+                for (std::uint32_t i = 0; i < bare.triangles.size(); ++i) {
+                    for (int k = 0; k < 3; ++k) {
+                        const Vec3 n = bare.corner_normal(i, k);
+                        mesh.normals.push_back({static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
+                    }
+                }
+            } else {
+                mesh = std::move(bare);
+            }
+        } else if (!textured) {  // vertices in one place may have several coordinates
+            geometry::weld_vertices(mesh);
         }
-        Shown shown;
         shown.shape = {static_cast<std::uint32_t>(loaded_.scene.shapes.size())};
         loaded_.scene.shapes.push_back({from.mName.C_Str(), std::move(mesh)});
-        shown.material = material_of(from);
         return shown;
+    }
+
+    // What textures go by. Assimp counts v up the picture.
+    static void read_attributes(const aiMesh& from, geometry::Mesh& mesh) {
+        const auto finite = [](ai_real v) { return std::isfinite(v) ? static_cast<float>(v) : 0.0f; };
+        for (unsigned i = 0; from.HasTextureCoords(0) && i < from.mNumVertices; ++i) mesh.coordinates[0].push_back({finite(from.mTextureCoords[0][i].x), 1 - finite(from.mTextureCoords[0][i].y)});
+        for (unsigned i = 0; from.HasVertexColors(0) && i < from.mNumVertices; ++i) {
+            const aiColor4D& c = from.mColors[0][i];
+            mesh.colors.push_back({finite(c.r), finite(c.g), finite(c.b), finite(c.a)});
+        }
     }
 
     scene::MaterialId material_of(const aiMesh& mesh) {
         const aiMaterial* material = mesh.mMaterialIndex < from_.mNumMaterials ? from_.mMaterials[mesh.mMaterialIndex] : nullptr;
-        auto translated = material ? physical_material(*material) : std::nullopt;
-        if (mesh.HasVertexColors(0)) ++vertex_colors_;
+        auto translated = material ? physical_material(*material, folder_) : std::nullopt;
         if (!translated) {  // the format or the file names none
             if (!mesh.HasVertexColors(0)) return {};
             scene::Material colored;
-            std::get<scene::PhysicalMaterial>(colored.model).base_color = mean_vertex_color(mesh);
+            std::get<scene::PhysicalMaterial>(colored.model).base_color = {1, 1, 1};
+            scene::Texture colors;
+            colors.kind = scene::TextureKind::vertex_color;
+            colored.textures.push_back({"base_color", colors});
             return add_material(std::move(colored));
         }
-        textures_ += texture_count(*material);
+        if (mesh.HasVertexColors(0)) ++vertex_colors_;
         const auto [known, is_new] = materials_.try_emplace(mesh.mMaterialIndex);
-        if (is_new) known->second = add_material(std::move(*translated));
+        if (is_new) {
+            textures_ += texture_count(*material) - std::min(texture_count(*material), translated->textures.size());
+            known->second = add_material(std::move(*translated));
+        }
         return known->second;
     }
 
     scene::MaterialId add_material(scene::Material material) {
         loaded_.scene.materials.push_back(std::move(material));
         return {static_cast<std::uint32_t>(loaded_.scene.materials.size() - 1)};
-    }
-
-    static math::Rgb mean_vertex_color(const aiMesh& mesh) {
-        double sum[3] = {0, 0, 0};
-        for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-            const aiColor4D& c = mesh.mColors[0][i];
-            const float channels[3] = {c.r, c.g, c.b};
-            for (int k = 0; k < 3; ++k) sum[k] += std::isfinite(channels[k]) ? std::clamp(channels[k], 0.0f, 1.0f) : 0.0f;
-        }
-        const double n = std::max(1u, mesh.mNumVertices);
-        return {static_cast<float>(sum[0] / n), static_cast<float>(sum[1] / n), static_cast<float>(sum[2] / n)};
     }
 
     const Affine& place_of(const aiString& node) const {
@@ -298,8 +318,8 @@ private:
         };
         tell(degenerate_, " triangles have no area and were dropped");
         tell(not_triangles_, " points and lines are not shown");
-        tell(vertex_colors_, " meshes have vertex colours: where there is no material their mean stands in");
-        tell(textures_, " textures are not applied");
+        tell(vertex_colors_, " meshes have vertex colours beside a material: they are left out");
+        tell(textures_, " textures are left out: of a kind that physical materials do not have, embedded, or outside of the folder");
         tell(from_.mNumAnimations, " animations are not applied");
         std::size_t bones = 0;
         for (unsigned i = 0; i < from_.mNumMeshes; ++i) bones += from_.mMeshes[i]->HasBones();
@@ -309,6 +329,7 @@ private:
     const aiScene& from_;
     const std::string& file_;
     const std::string& extension_;
+    const std::filesystem::path& folder_;
     const Convention& convention_;
     Loaded loaded_;
     Problems problems_;
@@ -333,7 +354,7 @@ Expected<Loaded> read_by_assimp(std::string_view bytes, const std::string& file_
             constexpr std::size_t longest = 300;
             return wrong(reason.empty() ? "cannot be read as " + extension.substr(extension.empty() ? 0 : 1) : reason.substr(0, longest));
         }
-        auto loaded = SceneBuilder(*scene, file_name, extension).build();
+        auto loaded = SceneBuilder(*scene, file_name, extension, folder).build();
         if (loaded) {
             for (const std::string& name : missing) {
                 loaded->warnings.push_back({file_name, "", "'" + name.substr(0, 100) + "', which it names, is not there or not in its folder", ""});

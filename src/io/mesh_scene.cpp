@@ -16,7 +16,8 @@ Expected<Loaded> scene_of(MeshContent content, const std::string& file_name, Pro
     }
     if (mesh.triangles.empty() && content.polygons.empty()) return wrong("there is no triangle in this file");
 
-    Loaded loaded{{}, std::move(warnings)};
+    Loaded loaded;
+    loaded.warnings = std::move(warnings);
     scene::Scene& scene = loaded.scene;
     scene.unit = content.unit;
     scene.roots.push_back({0});

@@ -10,6 +10,15 @@ void material(Archive& a, scene::Material& v) {
     auto& m = std::get<scene::PhysicalMaterial>(v.model);
     value(a, v.name), value(a, m.base_color), value(a, m.metallic), value(a, m.roughness), value(a, m.emissive), value(a, m.ior);
     value(a, m.transmission), value(a, m.attenuation), value(a, m.opacity), value(a, m.double_sided);
+    list(a, v.textures, 8, [&](scene::TextureBinding& b) {
+        scene::Texture& t = b.texture;
+        value(a, b.target), value(a, t.kind), value(a, t.channel), value(a, t.wrap_u), value(a, t.wrap_v);
+        scene::ImageSource source;
+        if (t.image) source = t.image->source();
+        bool has_image = t.image != nullptr;
+        value(a, has_image), value(a, source.file), value(a, source.place);
+        if (has_image && !t.image) t.image = std::make_shared<const scene::TextureImage>(std::move(source));
+    });
 }
 
 template <class Archive>
@@ -26,6 +35,7 @@ void shape(Archive& a, scene::NamedShape& v) {
     if (!std::holds_alternative<geometry::Mesh>(v.shape)) v.shape = geometry::Mesh{};
     auto& mesh = std::get<geometry::Mesh>(v.shape);
     array(a, mesh.positions), array(a, mesh.triangles), array(a, mesh.normals), array(a, mesh.slots);
+    array(a, mesh.coordinates[0]), array(a, mesh.colors);
 }
 
 template <class Archive>

@@ -6,6 +6,7 @@
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
 #include "scene/material_library.h"
+#include "io/texture_parts.h"
 
 namespace crescente::io {
 namespace {
@@ -67,6 +68,20 @@ bool threes(std::size_t size, const Json& json, const Place& place, ProblemList&
     return false;
 }
 
+// A flat list of numbers, n for each vertex.
+template <std::size_t n>
+void read_attributes(const Json& json, std::string_view key, std::vector<std::array<float, n>>& attributes, const Place& place, ProblemList& problems) {
+    const Json* list = json.find(key);
+    if (!list) return;
+    const auto numbers = read_numbers(*list, place / key, problems);
+    if (numbers.size() % n != 0) return problems.add(*list, place / key, "has " + std::to_string(numbers.size()) + " numbers, which is no multiple of " + std::to_string(n));
+    for (std::size_t i = 0; i < numbers.size(); i += n) {
+        std::array<float, n> one;
+        for (std::size_t k = 0; k < n; ++k) one[k] = static_cast<float>(numbers[i + k]);
+        attributes.push_back(one);
+    }
+}
+
 void read_arrays(const Json& json, geometry::Mesh& mesh, const Measure& measure, const Place& place, ProblemList& problems) {
     if (const Json* positions = json.find("positions")) {
         const Place here = place / "positions";
@@ -96,6 +111,10 @@ void read_arrays(const Json& json, geometry::Mesh& mesh, const Measure& measure,
             }
         }
     }
+    read_attributes(json, "coordinates", mesh.coordinates[0], place, problems);
+    read_attributes(json, "coordinates_2", mesh.coordinates[1], place, problems);
+    read_attributes(json, "colors", mesh.colors, place, problems);
+    read_attributes(json, "tangents", mesh.tangents, place, problems);
     if (const Json* slots = json.find("slots")) mesh.slots = read_indices<std::uint16_t>(*slots, place / "slots", problems);
 }
 
@@ -262,7 +281,7 @@ std::optional<scene::PhysicalMaterial> read_library_material(const Json& json, c
 
 scene::Material read_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems) {
     scene::Material material;
-    const std::string own[] = {name_word().name, model_word().name, library_word().name};
+    const std::string own[] = {name_word().name, model_word().name, library_word().name, textures_word().name};
     const std::vector<std::string> models{"physical", "classic"};
     if (const Json* model = json.find(own[1])) {
         if (!model->text()) must_be(*model, place / own[1], "a text", problems);
@@ -281,6 +300,7 @@ scene::Material read_material(const Json& json, const Measure& measure, const Pl
     std::visit([&](auto& m) {
         read_fields(json, m, std::remove_cvref_t<decltype(m)>::fields(), measure, place, problems, own);
     }, material.model);
+    if (const Json* textures = json.find(own[2])) read_textures(*textures, material, measure, place / own[2], problems);
     return material;
 }
 

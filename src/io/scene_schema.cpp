@@ -5,6 +5,7 @@
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
 #include "scene/material_library.h"
+#include "io/texture_parts.h"
 #include "scene/scene.h"
 
 namespace crescente::io {
@@ -52,11 +53,24 @@ ordered_json material_schema() {
     ordered_json classic = schema_with_name(scene::ClassicMaterial::fields());
     classic["properties"][model_word().name] = {{"description", model_word().doc}, {"const", "classic"}};
     classic["required"] = {model_word().name};
+    for (auto* schema : {&physical, &classic}) {
+        scene::Material model;
+        if (schema == &classic) model.model = scene::ClassicMaterial{};
+        ordered_json textures{{"description", textures_word().doc}};
+        textures.update(textures_schema(model));
+        (*schema)["properties"][textures_word().name] = textures;
+    }
     // By the model, not by trying both: so that an editor tells what is wrong with the kind that is meant.
     return {{"type", "object"},
             {"if", {{"properties", {{model_word().name, {{"const", "classic"}}}}}, {"required", {model_word().name}}}},
             {"then", classic},
             {"else", physical}};
+}
+
+ordered_json texture_schema() {
+    ordered_json schema = schema_of(scene::Texture::fields());
+    schema["properties"].update(object_with(texture_words(), {{"image", text()}})["properties"]);
+    return schema;
 }
 
 ordered_json numbers_or_threes(ordered_json one) {
@@ -69,7 +83,8 @@ ordered_json numbers_or_threes(ordered_json one) {
 void add_arrays(const geometry::Mesh&, ordered_json& schema) {
     const ordered_json whole{{"type", "integer"}, {"minimum", 0}};
     const ordered_json schemas{{"positions", numbers_or_threes(number())}, {"triangles", numbers_or_threes(whole)},
-                               {"normals", numbers_or_threes(number())}, {"slots", list_of(whole)}};
+                               {"normals", numbers_or_threes(number())}, {"slots", list_of(whole)},
+                               {"coordinates", list_of(number())}, {"coordinates_2", list_of(number())}, {"colors", list_of(number())}, {"tangents", list_of(number())}};
     schema["properties"].update(object_with(mesh_words(), schemas)["properties"]);
     schema["required"] = {"positions", "triangles"};
 }
@@ -217,6 +232,23 @@ once, each with its line and its JSON pointer, and the nearest spelling.
 
 )";
 
+constexpr const char* texture_introduction = R"(
+```json
+"plate": {"base_color": 0.7, "metallic": 1, "textures": {
+  "roughness": {"kind": "brushed", "projection": "box", "size": 0.0005, "color_a": 0.9, "color_b": 0.4},
+  "bump": {"kind": "brushed", "projection": "box", "size": 0.0005, "strength": 2e-6}
+}}
+```
+
+A texture multiplies the field that it acts on: any colour or number of the material but `ior`, `attenuation` and `dispersion`, which are the same everywhere in a body. Besides it can act on
+`normal` (a normal map, its green up the picture as in glTF), `bump` (a height), and `occlusion` (light from around that does not reach into creases). A list of textures acts one after the other.
+
+Coordinates: with `uv` those of a mesh, or the parameters of an exact surface, with pictures upright: of native shapes shares of a turn and of the height, of faces of CAD files as their surface has them (of a cylinder
+radians about its axis and metres along it); `box`, `planar`, `cylindrical` and `spherical` project from the place in the
+shape's own space, from the middle of its box, in metres as the shape stands in the scene, so that a texture has its true size on a part without coordinates; around an axis whole repeats close the circle.
+
+)";
+
 }  // namespace
 
 std::string scene_schema() {
@@ -241,6 +273,7 @@ std::string scene_schema() {
                        {"environment", schema_of(scene::Environment::fields())},
                        {"light", schema_with_name(scene::Light::fields())},
                        {"material", material_schema()},
+                       {"texture", texture_schema()},
                        {"shape", shape_schema()},
                        {"transform", transform_schema()},
                        {"object", object_schema()}};
@@ -262,6 +295,7 @@ std::string scene_reference() {
     out += "\n## Materials\n\n" + word_table(own);
     out += "\n### Physical\n\n" + field_table(scene::PhysicalMaterial::fields());
     out += "\n### Classic\n\n" + field_table(scene::ClassicMaterial::fields());
+    out += "\n### Textures\n\n" + word_table({&textures_word(), 1}) + texture_introduction + word_table(texture_words()) + "\n" + field_table(scene::Texture::fields());
     out += "\n## Shapes\n\nA shape is an object with one member, its kind: `{\"sphere\": {\"radius\": 1}}`.\n";
     for_each_kind([&](const std::string& name, const auto& shape) {
         using Kind = std::remove_cvref_t<decltype(shape)>;

@@ -59,6 +59,10 @@ std::span<const Word> mesh_words() {
         {"triangles", "whole numbers", "Three for each triangle: its vertices counted from 0, counter-clockwise from outside"},
         {"normals", "numbers", "Three for each vertex, or for each corner of each triangle; without them the triangles are flat"},
         {"slots", "whole numbers", "One for each triangle: which of the object's materials"},
+        {"coordinates", "numbers", "For textures, two for each vertex: u to the right and v down the picture, from its upper left corner"},
+        {"coordinates_2", "numbers", "A second set of them"},
+        {"colors", "numbers", "Four for each vertex: linear RGB and alpha, for textures of the kind vertex_color"},
+        {"tangents", "numbers", "Four for each vertex: the direction of growing u, and 1 or -1 for the side on which v falls; without them they are found by triangle"},
     };
     return words;
 }
@@ -82,6 +86,11 @@ const Word& model_word() {
 
 const Word& library_word() {
     static const Word word{"library", "name in the library", "A [material of the library](materials.md), with what else is said changed; physical"};
+    return word;
+}
+
+const Word& textures_word() {
+    static const Word word{"textures", "textures by what they act on", "What multiplies its fields from place to place, or gives it relief"};
     return word;
 }
 

@@ -21,8 +21,9 @@ std::span<const Word> rotate_words();
 std::span<const Word> mesh_words();
 std::span<const Word> polygon_words();
 const Word& name_word();   // for things in a list, or under another key than their name
-const Word& model_word();    // of a material
-const Word& library_word();  // of a material
+const Word& model_word();     // of a material
+const Word& library_word();   // of a material
+const Word& textures_word();  // of a material
 
 std::vector<std::string> names_of(std::span<const Word> words);
 

@@ -8,6 +8,7 @@
 #include "io/scene_file.h"
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
+#include "io/texture_parts.h"
 
 namespace crescente::io {
 namespace {
@@ -126,6 +127,7 @@ private:
             std::visit([&](const auto& model) {
                 write_fields(model, std::remove_cvref_t<decltype(model)>::fields(), measure_, json);
             }, material.model);
+            if (!material.textures.empty()) json[textures_word().name] = write_textures(material, measure_);
             begin_entry(out_, first, material_keys_.back());
             print_json(json, out_, 4);
         }
@@ -184,6 +186,19 @@ private:
         json["triangles"] = std::move(triangles);
         if (!mesh.normals.empty()) json["normals"] = std::move(normals);
         if (!mesh.slots.empty()) json["slots"] = mesh.slots;
+        write_attributes("coordinates", mesh.coordinates[0], json);
+        write_attributes("coordinates_2", mesh.coordinates[1], json);
+        write_attributes("colors", mesh.colors, json);
+        write_attributes("tangents", mesh.tangents, json);
+    }
+    template <std::size_t n>
+    static void write_attributes(const char* key, const std::vector<std::array<float, n>>& attributes, ordered_json& json) {
+        if (attributes.empty()) return;
+        ordered_json numbers = ordered_json::array();
+        for (const auto& one : attributes) {
+            for (const float component : one) numbers.push_back(short_double(component));
+        }
+        json[key] = std::move(numbers);
     }
 
     // --- the hierarchy

@@ -31,6 +31,9 @@ public:
     // Where the camera ray to the point starts.
     Vec3 origin_towards(Vec3 point) const { return orthographic_ ? point - forward_ * dot(point - position_, forward_) : position_; }
 
+    // Height of a pixel at this distance, m; seen in parallel, at every distance.
+    double pixel_width(double distance) const { return 2 * length(up_) / height_ * (orthographic_ ? 1.0 : distance); }
+
     bool operator==(const CameraRays&) const = default;
     Vec3 position() const { return position_; }
     Vec3 forward() const { return forward_; }

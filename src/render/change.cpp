@@ -8,6 +8,17 @@ namespace {
 
 bool may_filter(const World& world, std::uint32_t instance) { return !world.instances[instance].opaque; }
 
+// Whether both materials have the same textures and act alike under them, or have none.
+bool same_textures(const World& before, std::uint32_t a, const World& now, std::uint32_t b) {
+    const TexturedMaterial *from = before.textured_material(a), *to = now.textured_material(b);
+    return from == to || (from && to && *from == *to);
+}
+bool same_relief(const World& before, std::uint32_t a, const World& now, std::uint32_t b) {
+    const TexturedMaterial *from = before.textured_material(a), *to = now.textured_material(b);
+    const bool had = from && from->has_relief(), has = to && to->has_relief();
+    return had == has && (!has || from->same_relief(*to));
+}
+
 class Comparison {
 public:
     Comparison(const World& before, const World& now, std::span<const geometry::Shape* const> reshaped) : before_(before), now_(now), reshaped_(reshaped) {}
@@ -52,7 +63,8 @@ private:
         bool same = same_number && change_.same_geometry && !change_.any_reassigned && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
         for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
         for (std::size_t i = 0; same && i < change_.lobes.size(); ++i) {
-            if (change_.lobes[i].light) same = same_but_for_emission(before_.lobes[i], now_.lobes[i]);
+            const bool textured = before_.textured_material(static_cast<std::uint32_t>(i)) || now_.textured_material(static_cast<std::uint32_t>(i));
+            if (change_.lobes[i].light) same = !textured && same_but_for_emission(before_.lobes[i], now_.lobes[i]);
         }
         bool same_lights = before_.lights.size() == now_.lights.size();
         same = same && same_lights;
@@ -72,15 +84,23 @@ private:
     void compare_lobes() {
         // New ones come before the default one, which is the last and the same for all scenes.
         change_.lobes.resize(now_.lobes.size());
-        for (std::size_t i = 0; i + 1 < std::min(before_.lobes.size(), now_.lobes.size()); ++i) change_.lobes[i] = difference(before_.lobes[i], now_.lobes[i]);
+        if (!before_.textured.empty() || !now_.textured.empty()) {
+            for (std::uint32_t i = 0; i + 1 < std::min(before_.lobes.size(), now_.lobes.size()); ++i) retextured_.push_back(!same_textures(before_, i, now_, i));
+        }
+        for (std::size_t i = 0; i + 1 < std::min(before_.lobes.size(), now_.lobes.size()); ++i) change_.lobes[i] = difference(static_cast<std::uint32_t>(i));
     }
 
-    LobesChange difference(const Lobes& a, const Lobes& b) {
-        if (a == b) return {};
-        if (a.attenuation != b.attenuation || ((before_.absorbs || now_.absorbs) && (a.goes_on() || b.goes_on()))) change_.anew = true;
+    // Whether a material is what it was, as far as textures are concerned: found out once, not for each instance.
+    bool same_under_textures(std::uint32_t material) const { return material >= retextured_.size() || !retextured_[material]; }
+
+    LobesChange difference(std::uint32_t i) {
+        const LobesChange change = change_between(before_, i, now_, i);
+        if (!change.light) return change;
+        if (before_.lobes[i].attenuation != now_.lobes[i].attenuation || ((before_.absorbs || now_.absorbs) && (may_go_on(before_, i) || may_go_on(now_, i)))) change_.anew = true;
         change_.any_lobes = true;
-        return change_between(a, b);
+        return change;
     }
+    static bool may_go_on(const World& world, std::uint32_t material) { return world.lobes[material].goes_on() || world.textured_material(material); }
 
     void compare_instances() {
         std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> old;  // by identity, the last first
@@ -127,7 +147,9 @@ private:
         const auto x = before_.slots_of(was), y = now_.slots_of(i);
         const std::size_t slots = std::max(x.size(), y.size());
         for (std::size_t k = 0; k < slots; ++k) {
-            if (before_.lobes[x[std::min(k, x.size() - 1)]].one_sided != now_.lobes[y[std::min(k, y.size() - 1)]].one_sided) return false;
+            const std::uint32_t from = x[std::min(k, x.size() - 1)], to = y[std::min(k, y.size() - 1)];
+            if (before_.lobes[from].one_sided != now_.lobes[to].one_sided) return false;
+            if (!(from == to && same_under_textures(from)) && !same_relief(before_, from, now_, to)) return false;  // nodes keep their normals
         }
         return true;
     }
@@ -140,9 +162,9 @@ private:
             const std::uint32_t a = x[std::min(k, x.size() - 1)], b = y[std::min(k, y.size() - 1)];
             if (a != b) change_.reassigned[i] = change_.any_reassigned = true;
             const Lobes &from = before_.lobes[a], &to = now_.lobes[b];
-            filters = filters || from.shadow_filter != to.shadow_filter;
+            filters = filters || from.shadow_filter != to.shadow_filter || !(a == b ? same_under_textures(a) : same_textures(before_, a, now_, b));
             if (from.attenuation != to.attenuation) change_.anew = true;
-            if (a != b && (before_.absorbs || now_.absorbs) && (from.goes_on() || to.goes_on())) change_.anew = true;
+            if (a != b && (before_.absorbs || now_.absorbs) && (may_go_on(before_, a) || may_go_on(now_, b))) change_.anew = true;
         }
         if (!filters) return;
         filter_before_.push_back(was);
@@ -218,14 +240,18 @@ private:
     const World &before_, &now_;
     std::span<const geometry::Shape* const> reshaped_;
     std::vector<std::uint32_t> went_, came_;                   // instances, by their index before or now
+    std::vector<std::uint8_t> retextured_;                     // by material: its textures, or what they act on, are others; empty: there are none
     std::vector<std::uint32_t> filter_before_, filter_now_;  // that let light through otherwise
     Change change_;
 };
 
 }  // namespace
 
-LobesChange change_between(const Lobes& before, const Lobes& now) {
-    return {before != now, !send_same_rays(before, now), before.ior != now.ior};
+LobesChange change_between(const World& before, std::uint32_t material_before, const World& now, std::uint32_t material_now) {
+    const Lobes &a = before.lobes[material_before], &b = now.lobes[material_now];
+    // What a texture makes of another factor is not looked at: it may be anything.
+    const bool otherwise = !same_textures(before, material_before, now, material_now);
+    return {otherwise || a != b, otherwise || !send_same_rays(a, b), a.ior != b.ior || (otherwise && a.ior != 1)};
 }
 
 bool Change::touches_more_than_lobes() const {

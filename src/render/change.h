@@ -24,7 +24,8 @@ struct LobesChange {
     bool rays = false;    // the rays that it sends, or their weights
     bool bends = false;   // where refracted rays go
 };
-LobesChange change_between(const Lobes& before, const Lobes& now);
+// Of materials by their index in two worlds.
+LobesChange change_between(const World& before, std::uint32_t material_before, const World& now, std::uint32_t material_now);
 
 struct Change {
     bool anew = false;           // everything on the way from the camera: trees begin again

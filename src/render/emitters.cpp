@@ -180,6 +180,10 @@ void Emitters::add_object(const World& world, std::uint32_t instance) {
         const std::uint32_t slot = mesh && !mesh->slots.empty() ? mesh->slots[primitive] : 0;
         const std::uint32_t material = world.material(instance, slot), group = group_of_material_[material];
         if (group == none || !(shape.area() > 0)) continue;
+        if (world.textured_material(material)) {  // whose light is another at every place
+            groups_[group].unsampled.push_back({world.identity[instance], object.to_world, radiance_of_material_[material]});
+            continue;
+        }
         places.by_primitive.resize(primitive + 1, {none, none});
         places.by_primitive[primitive] = {group, static_cast<std::uint32_t>(groups_[group].members.size())};
         groups_[group].members.push_back({shape, radiance_of_material_[material]});

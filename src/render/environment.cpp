@@ -89,7 +89,7 @@ Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
         const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
         const auto reflectance = static_cast<float>(coat_reflectance(lobes, cosine));
-        const Rgb blurred = mix(environment_radiance(environment, mirrored), environment_irradiance(environment, mirrored), std::sqrt(lobes.coat_alpha));
+        const Rgb blurred = environment.blurred(mirrored, std::sqrt(lobes.coat_alpha));
         result = result * (1 - reflectance) + blurred * (reflectance * (1 - lobes.coat_mirror_share));
     }
     return result * static_cast<float>(environment.strength());

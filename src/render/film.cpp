@@ -10,6 +10,8 @@
 
 #include "render/level_visible.h"
 
+#include "render/surface_lobes.h"
+
 namespace crescente::render {
 namespace {
 
@@ -197,7 +199,8 @@ void expose(const Tile& tile, const World& world, std::span<const scene::Level> 
             set(1, {dot(view, world.camera.forward())});
             set(2, {node.position.x, node.position.y, node.position.z});
             set(3, {node.normal[0], node.normal[1], node.normal[2]});
-            const Rgb& albedo = world.lobes[node.material].albedo;
+            Lobes scratch;
+            const Rgb& albedo = lobes_of(world, tile, root, scratch).albedo;
             set(4, {albedo.r, albedo.g, albedo.b});
             set(5, {double(world.node_of_instance[node.instance])});
             set(6, {double(node.material)});

@@ -70,7 +70,14 @@ struct AddArrays {
                  std::same_as<Kind, geometry::Plane>
     void operator()(const Kind&) const {}
     void operator()(const geometry::Polygon& s) const { add(a, s.loops); }
-    void operator()(const geometry::Mesh& s) const { add(a, s.positions), add(a, s.triangles), add(a, s.normals), add(a, s.slots); }
+    void operator()(const geometry::Mesh& s) const {
+        add(a, s.positions), add(a, s.triangles), add(a, s.normals), add(a, s.slots);
+        for (const auto& coordinates : s.coordinates) {
+            if (!coordinates.empty()) add(a, coordinates);
+        }
+        if (!s.colors.empty()) add(a, s.colors);
+        if (!s.tangents.empty()) add(a, s.tangents);
+    }
     void operator()(const geometry::Bicubic& s) const { add(a, s.points), add(a, s.weights); }
     void operator()(const geometry::Nurbs& s) const { add(a, s.points), add(a, s.weights), add(a, s.knots_u), add(a, s.knots_v); }
     void operator()(const geometry::Revolution& s) const { add(a, s.profile), add(a, s.directrix); }
@@ -103,6 +110,11 @@ Fingerprint fingerprint_of(const scene::Scene& scene) {
     for (const scene::Material& material : scene.materials) {
         add(materials, material.model.index());
         std::visit([&](const auto& model) { add_fields(materials, model); }, material.model);
+        for (const scene::TextureBinding& binding : material.textures) {
+            materials.raw(binding.target.data(), binding.target.size());
+            add_fields(materials, binding.texture);
+            add(materials, binding.texture.image ? binding.texture.image->content() : 0);
+        }
     }
     lights.size(scene.lights, 1);
     for (const scene::Light& light : scene.lights) add_fields(lights, light);

@@ -7,6 +7,7 @@
 #include "render/environment.h"
 #include "render/hit_surface.h"
 #include "render/medium.h"
+#include "render/surface_lobes.h"
 
 namespace crescente::render {
 namespace {
@@ -147,6 +148,7 @@ void Growth::append() {
             node.primitive = hit.primitive;
             node.material = at.material[i];
             tile_.materials |= std::uint64_t{1} << node.material % 64;
+            if (world_.bends_normals) bend_normal(world_, tile_, static_cast<std::uint32_t>(first + block + i));
             if (world_.absorbs) node.weight *= transmittance(world_, tile_, static_cast<std::uint32_t>(first + block + i), hit.t);
         }
     }
@@ -180,8 +182,21 @@ void Growth::gather(std::span<const std::uint32_t> nodes) {
     }
 }
 
+// What the points are made of.
+void Growth::find_lobes() {
+    if (!world_.textured.empty()) textured_.resize(points_.size() * lane_count);
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+        PointLanes& p = points_[k];
+        for (int i = 0; i < p.count; ++i) {
+            const std::uint32_t material = tile_.nodes[p.node[i]].material;
+            p.lobes[i] = world_.textured_material(material) ? &lobes_of(world_, tile_, p.node[i], textured_[k * lane_count + i]) : &world_.lobes[material];
+        }
+    }
+}
+
 void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence coherence) {
     gather(nodes);
+    find_lobes();
     light_points(shadows, coherence);
 }
 
@@ -216,8 +231,7 @@ void Growth::begin_light(PointLanes& p, bool shadows) {
     p.physical = p.layered = p.sampled = 0;
     for (int i = 0; i < p.count; ++i) {
         Node& node = tile_.nodes[p.node[i]];
-        const Lobes& lobes = world_.lobes[node.material];
-        p.lobes[i] = &lobes;
+        const Lobes& lobes = *p.lobes[i];
         if (lobes.layered() && !lobes.composed()) {
             p.physical |= 1u << i;
             const PhysicalView<double> view = physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i)));
@@ -377,6 +391,7 @@ void Growth::trace_shadows(std::size_t light, Coherence coherence) {
 
 void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) {
     gather(nodes);
+    find_lobes();
     spawn_from_points(pending);
 }
 
@@ -386,7 +401,7 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) {
         for (int i = 0; i < p.count; ++i) {
             Node& node = tile_.nodes[p.node[i]];
             node.spawned = true;
-            const Lobes& lobes = world_.lobes[node.material];
+            const Lobes& lobes = *p.lobes[i];
             if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
             const ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
             const Rgb above = influence(tile_, p.node[i]);
@@ -410,10 +425,11 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
         for (int i = 0; i < p.count; ++i) {
             const Pending& from = pending[block * lane_count + i];
             const Node& node = tile_.nodes[from.parent];
-            const Lobes& lobes = world_.lobes[node.material];
             if (from.way == Way::refracted) {
+                Lobes scratch;
+                const double ior = lobes_of(world_, tile_, from.parent, scratch).ior;
                 refracted |= 1u << i;
-                eta[i] = node.inside ? lobes.ior : 1 / lobes.ior;
+                eta[i] = node.inside ? ior : 1 / ior;
             }
             if (from.way == Way::straight) straight |= 1u << i;
         }
@@ -463,6 +479,7 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         }
     }
     gather(fresh_);
+    find_lobes();
     light_points(settings_.level >= scene::Level::shadows, coherence);
     spawn_from_points(next);
 }

@@ -94,6 +94,7 @@ private:
     };
     void append();
     void gather(std::span<const std::uint32_t> nodes);
+    void find_lobes();
     void light_points(bool shadows, accel::Coherence coherence);
     void begin_light(PointLanes& points, bool shadows);
     bool any_untried(const PointLanes& points) const;
@@ -114,6 +115,7 @@ private:
     std::vector<accel::Hit> hits_;
     std::vector<Seed> seeds_;
     std::vector<PointLanes> points_;
+    std::vector<Lobes> textured_;  // of points_, where these have textures
     std::vector<std::uint32_t> parents_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;

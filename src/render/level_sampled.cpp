@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "render/path_sampler.h"
+#include "render/surface_lobes.h"
 
 namespace crescente::render {
 namespace {
@@ -66,10 +67,15 @@ private:
             const Node& node = tile_.nodes[i];
             if (node.parent == no_node) continue;
             const Node& parent = tile_.nodes[node.parent];
-            const Smooth smooth = smooth_lobes(world_.lobes[parent.material]);
+            const Smooth smooth = smooth_lobes_of(node.parent);
             const bool stands_in = (parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts);
             unseen_[i] = node.hidden || stands_in || unseen_[node.parent];
         }
+    }
+
+    Smooth smooth_lobes_of(std::uint32_t i) const {
+        Lobes scratch;
+        return smooth_lobes(lobes_of(world_, tile_, i, scratch));
     }
 
     std::uint32_t goal(std::uint32_t i) const {
@@ -88,10 +94,16 @@ private:
 
     // One sample of each after the other, so that neighbours are traced together. Whether there was time for all.
     bool sample_chunk(const Deadline& deadline) {
+        chunk_points_.clear();
+        chunk_lobes_.resize(chunk_.size());
+        for (std::size_t k = 0; k < chunk_.size(); ++k) chunk_points_.push_back(point_of(chunk_[k], chunk_lobes_[k]));
         while (true) {
             wanting_.clear(), points_.clear();
-            for (const std::uint32_t i : chunk_) {
-                if (tile_.samples[i] < goal(i)) wanting_.push_back(i), points_.push_back(point_of(i));
+            for (std::size_t k = 0; k < chunk_.size(); ++k) {
+                const std::uint32_t i = chunk_[k];
+                if (tile_.samples[i] >= goal(i)) continue;
+                wanting_.push_back(i), points_.push_back(chunk_points_[k]);
+                points_.back().index = tile_.samples[i];
             }
             if (points_.empty()) return true;
             light_.resize(points_.size() * groups_);
@@ -108,7 +120,7 @@ private:
         }
     }
 
-    SamplePoint point_of(std::uint32_t i) const {
+    SamplePoint point_of(std::uint32_t i, Lobes& scratch) const {
         const Node& node = tile_.nodes[i];
         const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
         SamplePoint point;
@@ -116,9 +128,9 @@ private:
         point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), {}, node.inside};
         point.to_viewer = normalize(viewer - node.position);
         point.offset = node.offset;
-        point.lobes = &world_.lobes[node.material];
+        point.lobes = &lobes_of(world_, tile_, i, scratch);
+        if (world_.filters_light || !world_.textured.empty()) point.path = path_length(world_, tile_, i);
         point.key = key_of(node.position);
-        point.index = tile_.samples[i];
         return point;
     }
 
@@ -127,7 +139,7 @@ private:
         std::erase_if(chunk_, [&](std::uint32_t i) { return tile_.samples[i] == 0; });
         for (const std::uint32_t i : chunk_) {
             Node& node = tile_.nodes[i];
-            const Smooth smooth = smooth_lobes(world_.lobes[node.material]);
+            const Smooth smooth = smooth_lobes_of(i);
             node.sampled = true;
             node.samples_reflection = !smooth.reflects, node.samples_refraction = !smooth.refracts;
         }
@@ -142,7 +154,8 @@ private:
     PathSampler sampler_;
     std::vector<std::uint8_t> unseen_;  // by node
     std::vector<std::uint32_t> chunk_, wanting_;
-    std::vector<SamplePoint> points_;
+    std::vector<SamplePoint> chunk_points_, points_;
+    std::vector<Lobes> chunk_lobes_;  // of textured materials
     std::vector<SampledLight> light_;
 };
 

@@ -69,7 +69,9 @@ RoughGlass rough_glass(double alpha, double ior) {
     return glass;
 }
 
-Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSums>& known_sums) {
+// sums_of(alpha): split sums. whole: of the material without textures, null if this is it.
+template <class SumsOf>
+Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const Lobes* whole) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
     const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
     const double r0 = (m.ior - 1) / (m.ior + 1);
@@ -86,11 +88,6 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSu
     const Rgb f0 = mix(gray(lobes.layer_f0), metal_f0, metallic) * opacity;
     lobes.roughness = static_cast<float>(m.roughness);
     lobes.alpha = std::max(smoothest_alpha, lobes.roughness * lobes.roughness);
-    const auto sums_of = [&known_sums](float alpha) -> const SplitSums& {
-        const auto [sums, unknown] = known_sums.try_emplace(alpha);
-        if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_split_sums() : split_sums(alpha);
-        return sums->second;
-    };
     lobes.sums = sums_of(lobes.alpha);
     if (conductor) lobes.eta = m.eta, lobes.k = m.k, lobes.conductor_f0 = metal_f0, lobes.conductor = metallic * opacity;
     if (m.clearcoat > 0) {
@@ -117,7 +114,9 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSu
         lobes.straight = gray(1 - opacity);
         lobes.ior = m.ior;
         lobes.attenuation = m.attenuation;
-        if (!lobes.smooth()) lobes.glass = rough_glass(lobes.alpha, m.ior);
+        if (lobes.smooth()) lobes.glass = {};
+        else if (!whole) lobes.glass = rough_glass(lobes.alpha, m.ior);
+        else if (whole->alpha == lobes.alpha && whole->ior == lobes.ior) lobes.glass = whole->glass;
     } else {
         lobes.fresnel = Fresnel::schlick;
         lobes.mirror_share = mirror_share_of(m.roughness);
@@ -135,12 +134,26 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, std::map<float, SplitSu
 
 std::vector<Lobes> compile(std::span<const scene::Material> materials) {
     std::map<float, SplitSums> known_sums;  // by alpha: many materials have the same
+    const auto sums_of = [&known_sums](float alpha) -> const SplitSums& {
+        const auto [sums, unknown] = known_sums.try_emplace(alpha);
+        if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_split_sums() : split_sums(alpha);
+        return sums->second;
+    };
     std::vector<Lobes> all;
     for (const scene::Material& material : materials) {
         const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model);
-        all.push_back(classic ? compile_classic(*classic) : compile_physical(std::get<scene::PhysicalMaterial>(material.model), known_sums));
+        all.push_back(classic ? compile_classic(*classic) : compile_physical(std::get<scene::PhysicalMaterial>(material.model), sums_of, nullptr));
     }
     return all;
+}
+
+Lobes compile(const scene::Material& material, const Lobes& whole) {
+    if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
+    const auto sums_of = [&whole](float alpha) {
+        if (alpha == whole.alpha) return whole.sums;
+        return alpha <= smoothest_alpha ? smooth_split_sums() : tabled_split_sums(alpha);
+    };
+    return compile_physical(std::get<scene::PhysicalMaterial>(material.model), sums_of, &whole);
 }
 
 Lobes compile(const scene::Material& material) { return compile(std::span(&material, 1)).front(); }

@@ -84,8 +84,12 @@ struct Lobes {
     bool layered() const { return highlight_lobe == HighlightLobe::ggx; }            // diffuse light is what a reflecting layer lets in
 };
 
-Lobes compile(const scene::Material& material);
+Lobes compile(const scene::Material& material);  // without its textures
 std::vector<Lobes> compile(std::span<const scene::Material> materials);  // sooner than one by one
+
+// Of a material as its textures make it at one place. `whole`: the material without them, whose integrals over all directions hold where its roughness and its
+// index do; otherwise they are looked up, and what rough glass loses between its facets is not given back.
+Lobes compile(const scene::Material& material, const Lobes& whole);
 
 // Share of light that the smooth layer of a physical material's dielectric mirrors: what its mirrored ray weighs, its coverage and metal aside.
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside);

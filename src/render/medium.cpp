@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/world.h"
+#include "render/surface_lobes.h"
 
 namespace crescente::render {
 namespace {
@@ -40,8 +40,9 @@ std::vector<Medium> media_of_ray(const World& world, const Tile& tile, std::uint
     return known;
 }
 
-// `media`: what the ray starts in.
-Rgb passage(const World& world, std::vector<Medium> media, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, bool straight_only) {
+// `media`: what the ray starts in. path(): length of the way from the camera to where it starts.
+template <class Path>
+Rgb passage(const World& world, std::vector<Medium> media, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, Path&& path, bool straight_only) {
     constexpr double same = 1e-12;
     Rgb filter{1, 1, 1}, depth;
     for (std::size_t i = 0; i < crossings.size(); ++i) {
@@ -52,7 +53,9 @@ Rgb passage(const World& world, std::vector<Medium> media, std::span<const accel
         const accel::Instance& instance = world.instances[hit.instance];
         const geometry::Ray local = accel::to_local(instance, ray);
         const auto surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
-        const Lobes& lobes = world.lobes[world.material(hit.instance, surface.slot)];
+        const std::uint32_t material = world.material(hit.instance, surface.slot);
+        Lobes scratch;
+        const Lobes& lobes = world.textured_material(material) ? lobes_at(world, material, texture_point(world, ray, hit, path()), scratch) : world.lobes[material];
         filter *= straight_only && lobes.refracts() && lobes.ior != 1 ? lobes.straight : lobes.shadow_filter;
         if (!world.absorbs) continue;
         const bool leaves = dot(surface.normal, local.direction) > 0;
@@ -103,11 +106,12 @@ Rgb transmittance(const World& world, const Tile& tile, std::uint32_t node, doub
 }
 
 Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<const accel::Crossing> crossings, const geometry::Ray& ray) {
-    return passage(world, world.absorbs ? media_of_ray(world, tile, node) : std::vector<Medium>{}, crossings, ray, false);
+    return passage(world, world.absorbs ? media_of_ray(world, tile, node) : std::vector<Medium>{}, crossings, ray,
+                   [&] { return path_length(world, tile, node); }, false);
 }
 
-Rgb passage(const World& world, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, bool straight_only) {
-    return passage(world, std::vector<Medium>{}, crossings, ray, straight_only);
+Rgb passage(const World& world, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, double path, bool straight_only) {
+    return passage(world, std::vector<Medium>{}, crossings, ray, [path] { return path; }, straight_only);
 }
 
 }  // namespace crescente::render

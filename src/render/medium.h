@@ -33,7 +33,7 @@ Rgb transmittance(const World& world, const Tile& tile, std::uint32_t node, doub
 Rgb passage(const World& world, const Tile& tile, std::uint32_t node, std::span<const accel::Crossing> crossings, const geometry::Ray& ray);
 
 // The same for a ray that starts anywhere: of the bodies that it starts in those are known that it leaves. straight_only: surfaces that bend light let through
-// what their coverage leaves alone, since bent light is looked for otherwise.
-Rgb passage(const World& world, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, bool straight_only);
+// what their coverage leaves alone, since bent light is looked for otherwise. path: length of the way from the camera to where the ray starts, m.
+Rgb passage(const World& world, std::span<const accel::Crossing> crossings, const geometry::Ray& ray, double path, bool straight_only);
 
 }  // namespace crescente::render

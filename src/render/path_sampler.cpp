@@ -7,6 +7,7 @@
 #include "render/estimates.h"
 #include "render/hit_surface.h"
 #include "render/medium.h"
+#include "render/surface_lobes.h"
 
 namespace crescente::render {
 namespace {
@@ -29,6 +30,12 @@ std::array<double, 4> numbers(const SamplePoint& point, int depth, Use use, std:
 double power_share(double a, double b) { return a <= 0 ? 0 : 1 / (1 + (b / a) * (b / a)); }
 
 bool bends(const Lobes& lobes) { return lobes.refracts() && lobes.ior != 1; }
+
+// 0 where both are.
+Rgb ratio(Rgb a, Rgb b) {
+    const auto channel = [](float x, float y) { return y == 0 ? 0 : x / y; };
+    return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
 
 Rgb over(Rgb color, double divisor) { return color * static_cast<float>(1 / divisor); }
 
@@ -66,11 +73,12 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::size_t k = 0; k < sampled; ++k) {
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const SamplePoint& p = points[i];
-            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes};
+            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path};
             const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
             const auto u = numbers(p, 0, Use::first_light, group);
             if (const auto arrived = sample_group(vertex, group, chance, false, {u[0], u[1], u[2]})) {
-                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, arrived->value.glossy * arrived->light});
+                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, p.path,
+                                 arrived->value.glossy * arrived->light});
             }
         }
     }
@@ -83,12 +91,12 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
         path.point = i;
         path.diffuse = over(s->value.diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
         path.throughput = path.throughput_on = {1, 1, 1};
-        path.from = p.position;
+        path.from = p.position, path.length = p.path;
         path.pdf = s->value.pdf;
         path.chance = chance;
         path.scattered = s->part == Part::diffuse, path.glossy_last = s->part == Part::glossy;
         paths_.push_back(path);
-        rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes}, s->direction));
+        rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path}, s->direction));
     }
 }
 
@@ -112,14 +120,22 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             const Hit& hit = hits_[block + i];
             meet_lights(path, ray, hit);
             if (!hit.found()) continue;
+            const std::uint32_t material = at.material[i];
+            const TexturedMaterial* textured = world_.textured_material(material);
             const bool blurs = path.scattered && !world_.blurred_lobes.empty();
-            const Lobes& lobes = (blurs ? world_.blurred_lobes : world_.lobes)[at.material[i]];
-            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes};
+            const Lobes& plain = (blurs ? world_.blurred_lobes : world_.lobes)[material];
+            Lobes scratch;
+            const TexturePoint place = textured ? texture_point(world_, ray, hit, path.length) : TexturePoint{};
+            const Lobes& lobes = textured ? lobes_at(world_, material, place, scratch) : plain;
+            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t};
+            if (textured && textured->has_relief()) vertex.facing.shading = textured->normal_at(place, vertex.facing.shading);
             if (vertex.facing.inside && !is_black(lobes.attenuation)) {
                 const Rgb rest = absorbed(lobes, hit.t);
                 path.throughput *= rest, path.throughput_on *= rest;
             }
-            if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, at.material[i], vertex.position, path.from)) take(path, *emitted);
+            if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, material, vertex.position, path.from)) {
+                take(path, *emitted, textured ? ratio(lobes.emission, plain.emission) : Rgb{1, 1, 1});
+            }
             if (!goes_on_ && path.depth == 0) path.diffuse = {};
             path.throughput = path.throughput_on;
             if (max_component((path.diffuse + path.glossy) * path.throughput) > 0) go_on(vertex, path, points[path.point]);
@@ -140,14 +156,14 @@ void PathSampler::meet_lights(const Path& path, const Ray& ray, const Hit& hit) 
 }
 
 // Light that a path met, as far as it was not sampled where its ray starts.
-void PathSampler::take(const Path& path, const Emitted& emitted) {
+void PathSampler::take(const Path& path, const Emitted& emitted, Rgb texture) {
     if (!world_.emitters.casts_shadows(emitted.group)) return;  // lights that nothing is in the way of are only sampled
     const bool unlit = path.sharp && !settings_.caustics;
     if (unlit && path.scattered) return;
     const bool highlights = world_.emitters.makes_highlights(emitted.group);
     if (!highlights && path.glossy_last) return;
     const double share = path.pdf == 0 ? 1 : power_share(path.pdf, path.chance * emitted.pdf);
-    const Rgb light = path.throughput * emitted.radiance * static_cast<float>(share);
+    const Rgb light = path.throughput * emitted.radiance * texture * static_cast<float>(share);
     add(path.point, emitted.group, unlit ? Rgb{} : path.diffuse * light, highlights || path.depth > 0 ? path.glossy * light : Rgb{});
 }
 
@@ -162,12 +178,12 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
             const Rgb light = path.throughput * arrived->light, spread = light * arrived->value.diffuse, sharp = light * arrived->value.glossy;
             const Rgb for_diffuse = bends(*vertex.lobes) && !settings_.caustics ? spread : spread + sharp;
             queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(group), path.diffuse * for_diffuse,
-                                     path.glossy * (path.scattered ? for_diffuse : spread), path.scattered ? Rgb{} : path.glossy * sharp});
+                                     path.glossy * (path.scattered ? for_diffuse : spread), vertex.path, path.scattered ? Rgb{} : path.glossy * sharp});
         }
     }
     if (const auto arrived = sample_lamp(vertex, numbers(point, depth, Use::lamp)[0])) {
         const Rgb light = path.throughput * arrived->light;
-        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light, {}});
+        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light, vertex.path, {}});
     }
     if (depth >= settings_.depth) return;
     if (depth >= sure_steps) {  // Russian roulette (Arvo and Kirk 1990)
@@ -182,7 +198,7 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
     path.throughput *= all;
     const bool straight = s->delta && s->direction == -vertex.to_viewer;
     if (!straight) {  // else its ray goes on as if there were nothing
-        path.from = vertex.position;
+        path.from = vertex.position, path.length = vertex.path;
         path.pdf = s->delta ? 0 : s->value.pdf;
         path.chance = groups_ == 0 ? 0 : 1.0 / static_cast<double>(groups_);
         path.sharp = s->delta || (s->part == Part::glossy && bends(*vertex.lobes));  // what comes so through glass, shadow rays have told
@@ -269,8 +285,8 @@ void PathSampler::trace_connections() {
             add(c.point, c.group, c.diffuse, c.glossy + c.mirrored);
             continue;
         }
-        const Rgb filter = passage(world_, {first, crossing}, shadow_rays_[i], settings_.caustics);
-        const Rgb clear = is_black(c.mirrored) ? Rgb{} : passage(world_, {first, crossing}, shadow_rays_[i], true);
+        const Rgb filter = passage(world_, {first, crossing}, shadow_rays_[i], c.path, settings_.caustics);
+        const Rgb clear = is_black(c.mirrored) ? Rgb{} : passage(world_, {first, crossing}, shadow_rays_[i], c.path, true);
         add(c.point, c.group, c.diffuse * filter, c.glossy * filter + c.mirrored * clear);
     }
     shadow_rays_.clear(), connections_.clear();

@@ -22,6 +22,7 @@ struct SamplePoint {
     Vec3 to_viewer;
     double offset = 0;   // how far from position, along the geometric normal, rays may start
     const Lobes* lobes = nullptr;
+    double path = 0;          // length of the way from the camera, m
     std::uint64_t key = 0;    // of its random numbers
     std::uint32_t index = 0;  // of the sample
 };
@@ -46,6 +47,7 @@ private:
         Rgb throughput;       // from the end to the point
         Rgb throughput_on;    // the same for what is not light at the next hit already
         Vec3 from;            // where the ray starts
+        double length;        // of the way from the camera to there, m
         double pdf;           // of the ray's direction; 0: a smooth lobe's
         double chance;        // that a light was also sampled where the ray starts
         std::uint8_t depth;
@@ -56,6 +58,7 @@ private:
     struct Connection {  // a shadow ray, and what it brings if nothing is in the way
         std::uint32_t point, group;
         Rgb diffuse, glossy;
+        double path;   // length of the way from the camera to where the ray starts, m
         Rgb mirrored;  // of the glossy part too, by no diffuse lobe: not through what bends light, since paths find what comes so
     };
     struct Vertex {  // where a path met a surface
@@ -64,6 +67,7 @@ private:
         Vec3 to_viewer;
         double offset;
         const Lobes* lobes;
+        double path;  // length of the way from the camera, m
     };
     struct Arrived {  // light of a group at a vertex, and what this sends back of it
         Scattered value;
@@ -74,7 +78,7 @@ private:
     void begin(std::span<const SamplePoint> points);
     void step(std::span<const SamplePoint> points);
     void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);
-    void take(const Path& path, const Emitted& emitted);
+    void take(const Path& path, const Emitted& emitted, Rgb texture = {1, 1, 1});
     void go_on(const Vertex& vertex, Path path, const SamplePoint& point);
     std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, const std::array<double, 3>& u) const;
     std::optional<Arrived> sample_lamp(const Vertex& vertex, double u);

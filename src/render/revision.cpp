@@ -141,8 +141,7 @@ private:
                 const accel::Instance& instance = now_.instances[node.instance];
                 const auto surface = geometry::surface(*instance.shape, node.primitive, instance.to_local.point(node.position));
                 const std::uint32_t material = now_.material(node.instance, surface.slot);
-                const Lobes &from = before_.lobes[node.material], &to = now_.lobes[material];
-                lobes = change_between(from, to);
+                lobes = change_between(before_, node.material, now_, material);
                 node.material = material;
                 tile_.materials |= std::uint64_t{1} << material % 64;
             } else {

@@ -1,6 +1,8 @@
 #include "render/split_sum.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "math/vec_lanes.h"
 #include "render/fresnel.h"
@@ -107,6 +109,27 @@ double density_of_cosine(const MissingCells& cells, double cosine) {
     const auto i = std::min(static_cast<std::size_t>(last * std::sqrt(std::clamp(cosine, 0.0, 1.0))), cells.size() - 1);
     const double share = double(cells[i]) - (i == 0 ? 0 : cells[i - 1]);
     return share * cosine / (pi * (fourth_power((i + 1) / last) - fourth_power(i / last)));
+}
+
+SplitSums tabled_split_sums(double alpha) {
+    constexpr std::size_t steps = 128;
+    static const std::vector<SplitSums> table = [] {
+        std::vector<SplitSums> rows;
+        for (std::size_t i = 0; i <= steps; ++i) {
+            const double roughness = static_cast<double>(i) / steps;
+            rows.push_back(split_sums(std::max(1e-3, roughness * roughness)));
+        }
+        return rows;
+    }();
+    const double place = std::sqrt(std::clamp(alpha, 0.0, 1.0)) * steps;
+    const auto i = std::min(static_cast<std::size_t>(place), steps - 1);
+    const auto t = static_cast<float>(place - static_cast<double>(i));
+    SplitSums sums;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const SplitSum &a = table[i][k], &b = table[i + 1][k];
+        sums[k] = {a.scale + (b.scale - a.scale) * t, a.bias + (b.bias - a.bias) * t};
+    }
+    return sums;
 }
 
 SplitSum split_sum(const SplitSums& sums, double cosine) {

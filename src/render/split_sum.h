@@ -22,6 +22,8 @@ using SplitSums = std::array<SplitSum, 25>;
 
 // alpha: of ggx, > 0. The sums are within 0.015 of the integrals at cosines over 0.02, and within 0.04 below.
 SplitSums split_sums(double alpha);
+// The same from a table over perceptual roughness (the root of alpha), interpolated: within 0.002, and a thousand times as fast; for surfaces that are of another roughness everywhere.
+SplitSums tabled_split_sums(double alpha);
 
 // Those of a mirror: nothing is missing.
 SplitSums smooth_split_sums();

@@ -19,6 +19,12 @@ void derive(World& world) {
     world.lobes = compile(s.materials);
     world.lobes.push_back(compile(scene::Material{}));
     const auto default_material = static_cast<std::uint32_t>(world.lobes.size() - 1);
+    for (std::size_t i = 0; i < s.materials.size(); ++i) {
+        if (s.materials[i].textures.empty()) continue;
+        world.textured.resize(world.lobes.size());
+        world.textured[i] = std::make_shared<const TexturedMaterial>(s.materials[i]);
+        world.bends_normals = world.bends_normals || world.textured[i]->has_relief();
+    }
 
     scene::walk_appearances(s, [&](const scene::Appearance& at) {
         world.first_slot.push_back(static_cast<std::uint32_t>(world.slots.size()));
@@ -26,7 +32,8 @@ void derive(World& world) {
         for (const scene::MaterialId id : *at.materials) {
             world.slots.push_back(id.valid() ? id.value : default_material);
             const Lobes& lobes = world.lobes[world.slots.back()];
-            opaque = opaque && lobes.opaque();
+            const TexturedMaterial* textured = world.textured_material(world.slots.back());
+            opaque = opaque && lobes.opaque() && !(textured && textured->may_open());
             world.absorbs = world.absorbs || !is_black(lobes.attenuation);
         }
         if (at.materials->empty()) world.slots.push_back(default_material);
@@ -35,7 +42,8 @@ void derive(World& world) {
         world.instances.emplace_back(shape, at.to_world, opaque);
         world.node_of_instance.push_back(at.node);
         world.identity.push_back(at.identity);
-        world.boxes.push_back(transform(at.to_world, geometry::bounds(shape)));
+        world.shape_boxes.push_back(geometry::bounds(shape));
+        world.boxes.push_back(transform(at.to_world, world.shape_boxes.back()));
     });
     for (const std::uint32_t slot : world.slots) world.one_sided.push_back(world.lobes[slot].one_sided);
     for (std::uint32_t i = 0; i < world.instances.size(); ++i) {
@@ -66,7 +74,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
 
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}});
+    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}, {}, false});
     derive(*world);
     return world;
 }

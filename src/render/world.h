@@ -13,6 +13,7 @@
 #include "render/light.h"
 #include "render/lobes.h"
 #include "render/medium.h"
+#include "render/textured_material.h"
 #include "scene/scene.h"
 
 namespace crescente::render {
@@ -23,10 +24,11 @@ struct World {
     std::vector<std::uint32_t> node_of_instance;  // index of the scene's node
     std::vector<std::uint64_t> identity;          // by instance: scene::Appearance::identity
     std::vector<Bounds> boxes;                    // by instance, in world space
+    std::vector<Bounds> shape_boxes;              // by instance, in the shape's space
     std::vector<std::uint32_t> first_slot;        // by instance: where its materials begin in `slots`
     std::vector<std::uint32_t> slots;             // index into lobes
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
-    std::vector<Lobes> lobes;                     // one for each material of the scene, and a default one at the end
+    std::vector<Lobes> lobes;                     // one for each material of the scene, without its textures (surface_lobes.h), and a default one at the end
     std::vector<Lobes> blurred_lobes;             // the same for light that diffuse surfaces scattered before; empty: no other
     std::vector<Light> lights;
     Environment environment;
@@ -36,6 +38,10 @@ struct World {
     bool absorbs = false;        // some instance is a medium with an attenuation
     std::vector<Medium> camera_media;
     Emitters emitters;           // what has extent, for the levels that sample it; none below them
+    std::vector<std::shared_ptr<const TexturedMaterial>> textured;  // beside lobes; null: without textures; empty: no material has any
+    bool bends_normals = false;                                     // some have relief
+
+    const TexturedMaterial* textured_material(std::uint32_t material) const { return textured.empty() ? nullptr : textured[material].get(); }
 
     // Index into lobes of what a hit's surface is made of.
     std::uint32_t material(std::uint32_t instance, std::uint32_t slot) const {

@@ -3,9 +3,11 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "base/fields.h"
 #include "math/color.h"
+#include "scene/texture.h"
 
 namespace crescente::scene {
 
@@ -52,6 +54,7 @@ struct PhysicalMaterial {
 struct Material {
     std::string name;
     std::variant<ClassicMaterial, PhysicalMaterial> model = PhysicalMaterial{};
+    std::vector<TextureBinding> textures{};  // several may act on one field
 };
 
 }  // namespace crescente::scene

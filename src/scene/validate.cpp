@@ -1,5 +1,6 @@
 #include "scene/validate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -65,6 +66,7 @@ private:
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
+            for (const TextureBinding& binding : scene_.materials[i].textures) check_texture(scene_.materials[i], binding, place + "/textures/" + escaped(binding.target));
         }
     }
 
@@ -81,6 +83,19 @@ private:
         for (const auto& f : Owner::fields()) {
             if (const auto wrong = range_problem(f.info, f.get(owner), scene_.unit.metres, scene_.unit.name)) add(place + "/" + f.info.name, *wrong);
         }
+    }
+
+    void check_texture(const Material& material, const TextureBinding& binding, const std::string& place) {
+        const Texture& texture = binding.texture;
+        check_fields(texture, place);
+        const bool is_relief = std::find(std::begin(relief_targets), std::end(relief_targets), binding.target) != std::end(relief_targets);
+        if (!is_relief && !textured_field(material, binding.target)) add(place, "there is nothing of this name that a texture may act on");
+        if (texture.kind == TextureKind::image && !(texture.image && texture.image->decoded())) add(place + "/image", "the picture is not loaded");
+        if (texture.projection == TextureProjection::solid && texture.kind == TextureKind::image) add(place + "/projection", "a picture is flat: only procedures can be carved from a block");
+        if (texture.cutoff > 0 && binding.target != "opacity") add(place + "/cutoff", "only opacity can be cut off");
+        if (!is_finite(texture.axis)) return;  // told above
+        const double l = length(texture.axis);
+        if (!(l > 0 && std::isfinite(l))) add(place + "/axis", "its length is " + number_text(l) + ": it points nowhere");
     }
 
     void positive(double value, const std::string& place) {
@@ -257,9 +272,23 @@ private:
             const auto& n = mesh.normals[i];
             return std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]);
         });
+        check_attributes(here + "/coordinates", mesh.coordinates[0], vertices);
+        check_attributes(here + "/coordinates_2", mesh.coordinates[1], vertices);
+        check_attributes(here + "/colors", mesh.colors, vertices);
+        check_attributes(here + "/tangents", mesh.tangents, vertices);
         if (!mesh.slots.empty() && mesh.slots.size() != mesh.triangles.size()) {
             add(here + "/slots", "there are " + std::to_string(mesh.slots.size()) + " slots for " + std::to_string(mesh.triangles.size()) + " triangles");
         }
+    }
+
+    template <std::size_t n>
+    void check_attributes(const std::string& place, const std::vector<std::array<float, n>>& attributes, std::size_t vertices) {
+        if (!attributes.empty() && attributes.size() != vertices) {
+            add(place, "there are " + std::to_string(attributes.size()) + ", must be one for each of " + std::to_string(vertices) + " positions");
+        }
+        report_first(place, "is not finite", attributes.size(), [&](std::size_t i) {
+            return std::all_of(attributes[i].begin(), attributes[i].end(), [](float v) { return std::isfinite(v); });
+        });
     }
 
     template <class Good>

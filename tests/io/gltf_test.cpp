@@ -33,13 +33,14 @@ TEST(Gltf, TheSharedModelsHaveTheirTriangles) {
              Known{"SpecularTest.glb", 44828, 0, 24, 24}, Known{"SunglassesKhronos.glb", 13396, 0, 8, 8},
              Known{"TransmissionRoughnessTest.glb", 77792, 0, 9, 9}, Known{"geometry-camera-light.glb", 14, 0, 2, 2},
              Known{"FlightHelmet/FlightHelmet.gltf", 94722, 0, 6, 6}}) {
-        const auto loaded = read_gltf_file(asset(std::string("gltf/") + known.file));
+        const auto loaded = read_scene(asset(std::string("gltf/") + known.file));
         ASSERT_TRUE(loaded) << loaded.error().text();
         EXPECT_EQ(triangles_in(loaded->scene), known.triangles) << known.file;
         EXPECT_EQ(warns_of(*loaded, std::to_string(known.dropped) + " triangles have no area"), known.dropped > 0) << known.file;
         EXPECT_EQ(loaded->scene.shapes.size(), known.shapes) << known.file;
         EXPECT_EQ(appearances_in(loaded->scene), known.appearances) << known.file;
         EXPECT_TRUE(scene::validate(loaded->scene, known.file).empty()) << known.file;
+        for (const Problem& warning : loaded->warnings) EXPECT_EQ(warning.reason.find("textures"), std::string::npos) << known.file << ": " << warning.reason;
     }
 }
 
@@ -69,14 +70,36 @@ TEST(Gltf, LightsOfTheSharedModel) {
     EXPECT_TRUE(loaded->scene.camera);
 }
 
-TEST(Gltf, TexturesLeaveTheirMean) {
+const scene::Texture& texture(const scene::Material& material, const std::string& target) {
+    for (const scene::TextureBinding& binding : material.textures) {
+        if (binding.target == target) return binding.texture;
+    }
+    static const scene::Texture none;
+    ADD_FAILURE() << material.name << " has no texture for " << target;
+    return none;
+}
+
+TEST(Gltf, TexturesOfTheSharedModels) {
     REQUIRE_ASSET("gltf/Fox.glb");
-    const auto loaded = read_gltf_file(asset("gltf/Fox.glb"));
+    const auto loaded = read_scene(asset("gltf/Fox.glb"));
     ASSERT_TRUE(loaded) << loaded.error().text();
-    if (!warns_of(*loaded, "1 textures are not applied: of 1 the mean stands in")) GTEST_SKIP() << "this build decodes no pictures";
-    const math::Rgb fur = physical(loaded->scene, 0).base_color;  // an orange
-    EXPECT_GT(fur.r, 1.5f * fur.g);
-    EXPECT_GT(fur.g, 1.5f * fur.b);
+    if (warns_of(*loaded, "this build has no OpenImageIO")) GTEST_SKIP() << "this build decodes no pictures";
+    const scene::Texture& fur = texture(loaded->scene.materials[0], "base_color");
+    ASSERT_TRUE(fur.image && fur.image->decoded());
+    const scene::Rgba mean = fur.image->texel(fur.image->level_count() - 1, 0, 0);  // an orange
+    EXPECT_GT(mean.r, 1.5f * mean.g);
+    EXPECT_GT(mean.g, 1.5f * mean.b);
+    EXPECT_EQ(std::get<geometry::Mesh>(loaded->scene.shapes[0].shape).coordinates[0].size(), std::get<geometry::Mesh>(loaded->scene.shapes[0].shape).positions.size());
+
+    const auto helmet = read_scene(asset("gltf/FlightHelmet/FlightHelmet.gltf"));
+    ASSERT_TRUE(helmet) << helmet.error().text();
+    for (const scene::Material& m : helmet->scene.materials) {
+        if (m.name.empty()) continue;
+        EXPECT_EQ(texture(m, "roughness").image, texture(m, "metallic").image) << "one picture, decoded once";
+        EXPECT_EQ(texture(m, "roughness").channel, scene::Channel::green);
+        EXPECT_EQ(texture(m, "metallic").channel, scene::Channel::blue);
+        EXPECT_TRUE(texture(m, "normal").image->decoded());
+    }
     EXPECT_TRUE(warns_of(*loaded, "3 animations"));
     EXPECT_TRUE(warns_of(*loaded, "1 nodes have skins"));
 }
@@ -216,6 +239,51 @@ TEST(Gltf, HierarchyInstancesCameraAndLight) {
     EXPECT_EQ(light.range, 9);
 }
 
+TEST(Gltf, TexturesWithSamplersTransformsAndAlpha) {
+    Made made;
+    made.accessor(square, 5126, "VEC3", 3);
+    made.accessor(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+    made.accessor(std::vector<std::uint8_t>{255, 0, 0, 51, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 0}, 5121, "VEC4", 4, R"(,"normalized":true)");
+    const std::string rest =
+        R"("images":[{"uri":"data:image/png;base64,AAAA"},{"uri":"a%20b.png"}],"samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}],)"
+        R"("textures":[{"source":0,"sampler":0},{"source":1}],)"
+        R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":{"offset":[0.5,0.25],"rotation":1.5,"scale":[2,3],"texCoord":0}}}},)"
+        R"("alphaMode":"MASK","alphaCutoff":0.3,"normalTexture":{"index":1,"scale":0.7},"occlusionTexture":{"index":1,"strength":0.4},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":1}},)"
+        R"({"alphaMode":"BLEND"}],)";
+    const auto loaded = read(made.glb(rest + mesh_with(R"({"attributes":{"POSITION":0,"TEXCOORD_0":1},"mode":6,"material":0},{"attributes":{"POSITION":0,"COLOR_0":2},"mode":6,"material":1})")));
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    const scene::Material &m = loaded->scene.materials[0], &colored = loaded->scene.materials[1];
+    const scene::Texture& base = texture(m, "base_color");
+    EXPECT_EQ(base.wrap_u, scene::Wrap::clamp);
+    EXPECT_EQ(base.wrap_v, scene::Wrap::mirror);
+    EXPECT_EQ(base.filter, scene::TextureFilter::nearest);
+    EXPECT_EQ(base.set, 0) << "the transform's goes before";
+    EXPECT_EQ((std::array{base.offset_u, base.offset_v, base.rotation, base.scale_u, base.scale_v}), (std::array{0.5, 0.25, 1.5, 2.0, 3.0}));
+    EXPECT_EQ(base.image->source().bytes, std::string(3, '\0'));
+    EXPECT_EQ(texture(m, "opacity").channel, scene::Channel::alpha);
+    EXPECT_EQ(texture(m, "opacity").cutoff, 0.3);
+    EXPECT_EQ(texture(m, "normal").strength, 0.7);
+    EXPECT_EQ(texture(m, "occlusion").strength, 0.4);
+    EXPECT_TRUE(texture(m, "emissive").image->source().file.ends_with("a b.png"));
+    EXPECT_EQ(texture(colored, "base_color").kind, scene::TextureKind::vertex_color);
+    EXPECT_EQ(texture(colored, "opacity").channel, scene::Channel::alpha);
+    EXPECT_EQ(texture(colored, "opacity").cutoff, 0);
+    const auto& mesh = std::get<geometry::Mesh>(loaded->scene.shapes[0].shape);
+    ASSERT_EQ(mesh.positions.size(), 8u) << "vertices that differ in what textures go by are not shared";
+    EXPECT_EQ(mesh.coordinates[0][1], (std::array<float, 2>{1, 1})) << "of the second corner of the fan";
+    EXPECT_EQ(mesh.coordinates[0][6], (std::array<float, 2>{0, 0})) << "of a primitive without them";
+    EXPECT_EQ(mesh.colors[0], (std::array<float, 4>{1, 1, 1, 1})) << "of a primitive without them";
+    EXPECT_EQ(mesh.colors[6], (std::array<float, 4>{1, 0, 0, 0.2f})) << "of the fan's middle";
+
+    for (const char* wrong : {R"("images":[{"uri":"../a.png"}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)",
+                              R"("images":[{"uri":"a.png"}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0,"texCoord":2}}],)",
+                              R"("images":[],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)",
+                              R"("images":[{}],"textures":[{"source":0}],"materials":[{"normalTexture":{"index":0}}],)"}) {
+        EXPECT_FALSE(read(made.glb(wrong + mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0})")))) << wrong;
+    }
+    EXPECT_FALSE(read(made.glb(mesh_with(R"({"attributes":{"POSITION":0,"TEXCOORD_0":0},"mode":6})")))) << "coordinates of three numbers";
+}
+
 TEST(Gltf, MaterialFactorsAndExtensions) {
     Made made;
     made.accessor(square, 5126, "VEC3", 3);
@@ -339,9 +407,9 @@ TEST(Gltf, DracoDataThatLieAreRefused) {
     std::string bytes("DRACO\x02\x02\x01\x01\x00\x00", 11);
     bytes += std::string("\x00", 1) + "\xff\xff\xff\xff\x0f" + "\xff\xff\xff\xff\x0f";  // four thousand million vertices and faces
     bytes += std::string(100, '\x01');
-    EXPECT_FALSE(decode_draco(bytes, 0, -1));
-    EXPECT_FALSE(decode_draco(bytes.substr(0, 5), 0, -1));
-    EXPECT_FALSE(decode_draco("", 0, -1));
+    EXPECT_FALSE(decode_draco(bytes, DracoIds{0}));
+    EXPECT_FALSE(decode_draco(bytes.substr(0, 5), DracoIds{0}));
+    EXPECT_FALSE(decode_draco("", DracoIds{0}));
 }
 
 #if __has_include(<draco/compression/encode.h>)

@@ -75,6 +75,31 @@ private:
         return {{i}, s.nodes[i]};
     }
     scene::Material any_value() {
+        scene::Material value = any_model();
+        if (random_.chance(0.25)) value.textures = any_textures(value);
+        return value;
+    }
+    // One or two of any kind, on anything, the relief of the surface included.
+    std::vector<scene::TextureBinding> any_textures(const scene::Material& of) {
+        static const auto dots = std::make_shared<const scene::TextureImage>(
+            scene::ImageSource{{}, "dots"}, scene::Pixels{2, 2, 4, scene::SampleType::bits8, {255, 40, 60, 255, 20, 200, 250, 60, 90, 90, 255, 0, 200, 180, 30, 140}}, false);
+        std::vector<scene::TextureBinding> textures;
+        const std::vector<std::string> targets = scene::texture_targets(of);
+        for (std::uint64_t i = 0; i <= random_.below(2); ++i) {
+            scene::Texture t;
+            t.kind = static_cast<scene::TextureKind>(random_.below(6));
+            t.projection = static_cast<scene::TextureProjection>(random_.below(t.kind == scene::TextureKind::image ? 5 : 6));
+            if (t.kind == scene::TextureKind::image) t.image = dots;
+            t.size = random_.uniform(0.1, 0.6), t.color_a = color(), t.channel = static_cast<scene::Channel>(random_.below(5));
+            t.axis = random_.direction();
+            const std::string target = random_.chance(0.2) && std::holds_alternative<PhysicalMaterial>(of.model) ? "opacity" : targets[random_.below(targets.size())];
+            if (target == "opacity" && random_.chance(0.5)) t.cutoff = 0.5;
+            if (target == "bump") t.strength = 0.05;
+            textures.push_back({target, t});
+        }
+        return textures;
+    }
+    scene::Material any_model() {
         switch (random_.below(4)) {
             case 0: return {"", matte(color())};
             case 1: return {"", mirror(color())};
@@ -101,6 +126,7 @@ private:
             p.base_color = color();
             if (random_.chance(0.3)) p.double_sided = !p.double_sided;
         }
+        if (random_.chance(0.15)) value.textures = any_textures(value);
         return scene::SetMaterial{id, value};
     }
     Edit light(const Scene& s) {

@@ -68,7 +68,9 @@ Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
 }  // namespace
 
 Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& options) {
-    auto loaded = io::read_scene(request.file, options);
+    io::ReadOptions reading = options;
+    reading.texture_pattern = request.texture_pattern;
+    auto loaded = io::read_scene(request.file, reading);
     if (!loaded) return loaded;
     scene::Scene& scene = loaded->scene;
 

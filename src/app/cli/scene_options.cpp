@@ -131,6 +131,8 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--studio", options.studio, "Lights and ground that fit the model, whatever light it has: " + studio_list())->option_text("NAME");
     command.add_flag("--no-studio", options.no_studio, "Add no lights and ground to a bare model");
     command.add_flag("--no-cache", options.no_cache, "Read a CAD file anew, and keep nothing of it");
+    command.add_option("--missing-textures", options.missing_textures, "What to do where a texture's picture is missing or damaged: error, or show a pattern")
+        ->check(CLI::IsMember({"error", "pattern"}))->option_text("error|pattern");
     command.add_flag("-v,--verbose", options.verbose, "Tell what the libraries that read the file have to say");
 }
 
@@ -175,6 +177,7 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
     reader.request.studio = !options.no_studio;
     reader.request.cache = !options.no_cache;
     reader.request.verbose = options.verbose;
+    reader.request.texture_pattern = options.missing_textures == "pattern";
     return std::move(reader.request);
 }
 

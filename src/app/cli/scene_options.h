@@ -25,6 +25,7 @@ struct SceneOptions {
     std::vector<std::string> overrides;  // --set path=value
     std::optional<std::string> studio;
     bool no_studio = false, no_cache = false, verbose = false;
+    std::string missing_textures = "error";
 };
 
 // Declares the options; `options` must outlive the parsing.
@@ -40,6 +41,7 @@ struct SceneRequest {
     std::vector<std::string> overrides;
     std::optional<scene::Studio> asked_studio;
     bool studio = true, cache = true, verbose = false;
+    bool texture_pattern = false;
 };
 
 // Every problem of the options at once (ErrorKind::usage).

@@ -1,0 +1,26 @@
+// Textures of a material in a scene file: {"base_color": {"image": "oak.png", "projection": "box"}}.
+#pragma once
+
+#include <filesystem>
+
+#include "io/json_fields.h"
+#include "io/scene_words.h"
+#include "scene/material.h"
+
+namespace crescente::io {
+
+// Besides the fields of scene::Texture.
+std::span<const Word> texture_words();
+
+// The material's textures: an object by what each acts on, of one texture or a list of them. Pictures are named, as the text says, not read (io/texture_files.h).
+void read_textures(const Json& json, scene::Material& material, const Measure& measure, const Place& place, ProblemList& problems);
+
+// Relative paths of the material's pictures begin in the folder.
+void find_images_in(scene::Material& material, const std::filesystem::path& folder);
+
+nlohmann::ordered_json write_textures(const scene::Material& material, const Measure& measure);
+
+// Of the textures of a material with this model.
+nlohmann::ordered_json textures_schema(const scene::Material& model);
+
+}  // namespace crescente::io

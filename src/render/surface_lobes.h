@@ -1,0 +1,34 @@
+// What a surface is made of where a ray met it: the lobes of its material there. The one place that asks textures; whoever needs lobes of a node asks here, and
+// not World::lobes, which has what the material says without its textures.
+#pragma once
+
+#include "render/forest.h"
+#include "render/textured_material.h"
+#include "render/world.h"
+
+namespace crescente::render {
+
+// Of any place: `scratch` keeps the answer where the material has textures.
+inline const Lobes& lobes_at(const World& world, std::uint32_t material, const TexturePoint& point, Lobes& scratch) {
+    const TexturedMaterial* textured = world.textured_material(material);
+    if (!textured) return world.lobes[material];
+    scratch = textured->lobes_at(point);
+    return scratch;
+}
+
+// Of a node that did not leave the scene. Derived from the tile's nodes alone: from where it is and the path that leads there.
+const Lobes& lobes_of(const World& world, const Tile& tile, std::uint32_t node, Lobes& scratch);
+
+// The node as its textures see it.
+TexturePoint texture_point(const World& world, const Tile& tile, std::uint32_t node);
+
+// A place where a ray met something, or passes through it; path: length of the way from the camera to where the ray starts, m.
+TexturePoint texture_point(const World& world, const geometry::Ray& ray, const accel::Hit& hit, double path);
+
+// Length of the path from the camera to the node, m.
+double path_length(const World& world, const Tile& tile, std::uint32_t node);
+
+// Gives the node, whose normal is that of the surface without relief, the one that its material's relief gives it.
+void bend_normal(const World& world, Tile& tile, std::uint32_t node);
+
+}  // namespace crescente::render
