@@ -1,5 +1,6 @@
 #include "io/edit_text.h"
 
+#include "io/ies_file.h"
 #include "io/object_reader.h"
 #include "io/panorama_file.h"
 #include "io/scene_names.h"
@@ -261,6 +262,7 @@ private:
         scene::Light light;
         const std::string own[] = {name_word().name};
         read_fields(json, light, scene::Light::fields(), measure_, place, problems_, own);
+        if (json.object() && json.find("profile")) load_profile(light, *json.find("profile"), place / "profile", problems_);
         if (!name) return;
         light.name = *name;
         const auto change = [&](std::uint32_t i) {

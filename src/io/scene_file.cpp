@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "base/spelling.h"
+#include "io/ies_file.h"
 #include "io/json_fields.h"
 #include "io/object_reader.h"
 #include "io/panorama_file.h"
@@ -206,6 +207,8 @@ private:
             if (z_up_) turn(light, lying);
             read_fields(value, light, scene::Light::fields(), measure_, here, problems_, own);
             if (z_up_) turn(light, upright);
+            const Json* profile = value.object() && outermost() ? value.find("profile") : nullptr;
+            if (profile) load_profile(light, *profile, here / "profile", problems_);
             light.name = read_name(value, here, key, problems_);
             ++count;
             if (outermost()) scene().lights.push_back(std::move(light));

@@ -1,5 +1,6 @@
 #include "io/set_value.h"
 
+#include "io/ies_file.h"
 #include "io/panorama_file.h"
 #include "io/scene_names.h"
 #include "io/scene_parts.h"
@@ -65,7 +66,11 @@ private:
         if (value) found->set(owner, *value);
         return value.has_value();
     }
-    bool set_in(scene::Light& light) { return set_field(light); }
+    bool set_in(scene::Light& light) {
+        if (!set_field(light)) return false;
+        if (path_.field == "profile") load_profile(light, value_, place_, problems_);
+        return true;
+    }
     bool set_in(scene::Material& material) {
         if (path_.field == library_word().name) {
             const auto found = read_library_material(value_, place_, problems_);

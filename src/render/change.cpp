@@ -233,7 +233,8 @@ private:
         if (a.kind != b.kind || a.shadows != b.shadows || (directed ? a.direction != b.direction : a.position != b.position)) return;
         const bool reach = a.direction != b.direction || a.inner_angle != b.inner_angle || a.outer_angle != b.outer_angle || a.gradient != b.gradient ||
                            a.exponent != b.exponent || a.falloff != b.falloff || a.constant != b.constant || a.linear != b.linear ||
-                           a.quadratic != b.quadratic || a.range != b.range || a.two_sided != b.two_sided;
+                           a.quadratic != b.quadratic || a.range != b.range || a.two_sided != b.two_sided ||
+                           a.measured != b.measured || (b.measured && a.up != b.up);
         change_.lights[now] = reach ? LightChange::reach : LightChange::strength;
     }
 

@@ -117,7 +117,12 @@ Fingerprint fingerprint_of(const scene::Scene& scene) {
         }
     }
     lights.size(scene.lights, 1);
-    for (const scene::Light& light : scene.lights) add_fields(lights, light);
+    for (const scene::Light& light : scene.lights) {
+        scene::Light nameless = light;
+        nameless.profile.clear();
+        add_fields(lights, nameless);
+        if (light.measured) add(lights, light.measured->content());
+    }
     if (scene.camera) add_fields(camera, *scene.camera);
     if (scene.environment) {
         scene::Environment nameless = *scene.environment;

@@ -7,6 +7,7 @@ namespace crescente::render {
 Light::Light(const scene::Light& light)
     : light_(light),
       axis_(normalize(light.direction)),
+      upward_(light.measured ? scene::upward_of(light) : Vec3{}),
       color_(light.color * static_cast<float>(light.intensity)),
       oriented_(light.kind == scene::LightKind::point && light.outer_angle < pi),
       cos_outer_(std::cos(light.outer_angle)),
@@ -29,6 +30,7 @@ Reach<T> Light::reach(const VecOf<T>& point) const {
     const T unit = apart ? distance : T{} + 1.0;
     Reach<T> at{{path.x / unit, path.y / unit, path.z / unit}, distance, falloff(unit)};
     if (scene::is_flat(light_)) at.factor *= flat(T(-(at.to_light.x * axis_.x + at.to_light.y * axis_.y + at.to_light.z * axis_.z)));
+    if (light_.measured) at.factor *= profile<T>(at.to_light);
     if (oriented_) at.factor *= cone(T(-(at.to_light.x * axis_.x + at.to_light.y * axis_.y + at.to_light.z * axis_.z)));
     at.factor = apart ? at.factor : T{};
     return at;
@@ -41,6 +43,23 @@ template Reach<Lanes> Light::reach(const VecOf<Lanes>&) const;
 template <class T>
 T Light::flat(const T& cosine) const {
     return light_.two_sided ? greater(cosine, T(-cosine)) : greater(cosine, T{});
+}
+
+// Candela towards a point from which the light is seen in this direction.
+template <class T>
+T Light::profile(const VecOf<T>& to_light) const {
+    const Vec3 aside = cross(upward_, axis_);  // horizontal angles go counter-clockwise as seen from behind the lamp
+    const auto one = [&](Vec3 away) {
+        const double along = std::clamp(dot(away, axis_), -1.0, 1.0);
+        return light_.measured->intensity(std::acos(along), std::atan2(dot(away, aside), dot(away, upward_)));
+    };
+    if constexpr (std::is_same_v<T, double>) {
+        return one(-vec3(to_light));
+    } else {
+        T result{};
+        for (int i = 0; i < lane_count; ++i) result[i] = one(-lane(to_light, i));
+        return result;
+    }
 }
 
 // Share of full strength at the angle of this cosine from the axis.

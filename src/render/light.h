@@ -41,12 +41,15 @@ private:
     template <class T>
     T flat(const T& cosine) const;
     template <class T>
+    T profile(const VecOf<T>& to_light) const;
+    template <class T>
     T cone(const T& cosine) const;
     template <class T>
     T falloff(const T& distance) const;
 
     scene::Light light_;
     Vec3 axis_;
+    Vec3 upward_;  // of a profile
     Rgb color_;
     bool oriented_;
     double cos_outer_, cos_scale_;

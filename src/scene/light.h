@@ -1,11 +1,13 @@
 // Lights: points that may be oriented, directions, and lights with extent: rectangles, disks and spheres.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "base/fields.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "scene/light_profile.h"
 
 namespace crescente::scene {
 
@@ -43,6 +45,9 @@ struct Light {
     double range = 0;                // metres, 0: unlimited; fades as in KHR_lights_punctual
     bool shadows = true;
     bool highlights = true;          // false: lights diffusely only (fill lights)
+    // Of a point light: measured intensities in place of an even one, about the direction, from where the height of a rectangle would run; `intensity` is then a factor.
+    std::string profile{};                            // path of an IES file; empty: none
+    std::shared_ptr<const LightProfile> measured{};   // what was read from there
     // Of lights with extent, whose position is their centre. They have no cone, and fall off as physics says.
     math::Vec3 up{0, 1, 0};          // which way the height of a rectangle runs; any length but zero (upward_of)
     double width = 1, height = 1;    // of a rectangle, metres

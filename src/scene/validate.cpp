@@ -142,13 +142,28 @@ private:
             add(place + "/constant", "all terms of the classic falloff are 0");
         }
         if (has_extent(light)) check_extent(light, place);
+        if (!light.profile.empty()) check_profile(light, place);
+    }
+
+    void check_profile(const Light& light, const std::string& place) {
+        if (light.kind != LightKind::point) return add(place + "/profile", "only point lights have one");
+        if (!light.measured) add(place + "/profile", "the file was not read");
+        check_upward(light, place);
+        const double direction = length(light.direction);
+        if (is_finite(light.direction) && light.outer_angle >= math::pi && !(direction > 0 && std::isfinite(direction))) {
+            add(place + "/direction", "its length is " + number_text(direction) + ": it points nowhere");
+        }
+    }
+
+    void check_upward(const Light& light, const std::string& place) {
+        const double up = length(light.up);
+        if (is_finite(light.up) && !(up > 0 && std::isfinite(up))) add(place + "/up", "its length is " + number_text(up) + ": it points nowhere");
     }
 
     void check_extent(const Light& light, const std::string& place) {
         if (light.kind == LightKind::rectangle) {
             positive(light.width, place + "/width"), positive(light.height, place + "/height");
-            const double up = length(light.up);
-            if (is_finite(light.up) && !(up > 0 && std::isfinite(up))) add(place + "/up", "its length is " + number_text(up) + ": it points nowhere");
+            check_upward(light, place);
         } else {
             positive(light.radius, place + "/radius");
         }

@@ -71,6 +71,7 @@ public:
             s.lights.emplace_back();
             fill(s.lights.back());
             s.lights.back().name = name();
+            s.lights.back().profile.clear();  // nor is there one of that name
         }
         for (int i = number(6); i-- > 0;) {
             Material m{name(), PhysicalMaterial{}};

@@ -1,4 +1,5 @@
 // Light that reaches a wall, pixel by pixel, against closed forms.
+#include "render/light.h"
 #include "render/scenes.h"
 
 namespace crescente::render::testing {
@@ -109,6 +110,32 @@ TEST(Extent, ActsAtItsCenter) {
             EXPECT_EQ(pixel(picture_of(s.scene), n / 2, n / 2), Rgb{}) << "it shines to the front only";
         }
     }
+}
+
+// Candela by direction: about the light's axis from its upward side.
+TEST(Profile, IsTheLampsOwnDistribution) {
+    Build s = wall(matte(albedo));
+    scene::Light& light = s.light();
+    light.position = {0.2, 0.1, 1.2}, light.direction = {0.3, -0.2, -1}, light.up = {0.1, 1, 0.2}, light.intensity = 0.5;
+    light.profile = "lamp.ies";
+    light.measured = std::make_shared<const scene::LightProfile>(std::vector{0.0, 0.6, pi / 2}, std::vector{0.0, pi / 2, pi, 1.5 * pi, 2 * pi},
+                                                                 std::vector<double>{9, 5, 1, 9, 6, 2, 9, 7, 3, 9, 8, 4, 9, 5, 1});
+    const Vec3 axis = normalize(light.direction), up = scene::upward_of(light), aside = cross(up, axis);  // counter-clockwise as seen from behind the lamp
+    int turned = 0;
+    expect_wall(s.scene, [&](Vec3 p) {
+        const Way w = way(p, light.position);
+        const Vec3 away = -w.to_light;
+        const double about = std::atan2(dot(away, aside), dot(away, up));
+        turned += about < 0;
+        const double candela = light.measured->intensity(std::acos(dot(away, axis)), about);
+        return albedo * static_cast<float>(0.5 * candela * w.cosine / (w.distance * w.distance));
+    });
+    EXPECT_GT(turned, n);
+    // Of a lamp that hangs from the ceiling, up being north, west is at 90 degrees.
+    light.position = {}, light.direction = {0, -1, 0}, light.up = {0, 0, -1};
+    const Light hanging(light);
+    EXPECT_NEAR(hanging.at({-std::sin(0.6), -std::cos(0.6), 0}).strength.r, 0.5 * 6, 1e-6);
+    EXPECT_NEAR(hanging.at({std::sin(0.6), -std::cos(0.6), 0}).strength.r, 0.5 * 8, 1e-6);
 }
 
 TEST(Falloff, ClassicNeverAmplifies) {
