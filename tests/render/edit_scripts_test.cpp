@@ -107,6 +107,8 @@ private:
             default: {
                 PhysicalMaterial m;
                 m.base_color = color(), m.metallic = random_.chance(0.5), m.roughness = random_.uniform(0, 1), m.opacity = random_.chance(0.3) ? 0.5 : 1;
+                if (random_.chance(0.3)) m.k = {3, 2, 2}, m.eta = color();
+                if (random_.chance(0.3)) m.clearcoat = 0.8, m.clearcoat_roughness = random_.uniform(0, 0.5);
                 return {"", m};
             }
         }
