@@ -74,7 +74,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
 
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
     const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
-    auto world = std::make_unique<World>(World{std::move(scene), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, camera, nullptr, false, false, {}, {}, {}, false});
+    auto world = std::make_unique<World>(std::move(scene), camera);
     derive(*world);
     return world;
 }

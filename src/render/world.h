@@ -19,6 +19,8 @@
 namespace crescente::render {
 
 struct World {
+    World(scene::Scene of, const CameraRays& seen_by) : scene(std::move(of)), camera(seen_by) {}
+
     scene::Scene scene;  // the shapes that the instances point into; must not move its shapes
     std::vector<accel::Instance> instances;
     std::vector<std::uint32_t> node_of_instance;  // index of the scene's node
