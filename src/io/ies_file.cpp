@@ -22,7 +22,7 @@ public:
         const auto end = rest_.find('\n');
         std::string_view one = rest_.substr(0, end);
         rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-        ++line_;
+        line_ = ++ended_;
         if (!one.empty() && one.back() == '\r') one.remove_suffix(1);
         return one;
     }
@@ -31,9 +31,10 @@ public:
     double number(const char* what) {
         if (problem_) return 0;
         while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r' || rest_.front() == '\n' || rest_.front() == ',')) {
-            line_ += rest_.front() == '\n';
+            ended_ += rest_.front() == '\n';
             rest_.remove_prefix(1);
         }
+        line_ = ended_ + 1;
         if (!rest_.empty() && rest_.front() == '+') rest_.remove_prefix(1);
         double value = 0;
         const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
@@ -60,7 +61,7 @@ public:
 private:
     std::string_view rest_;
     const std::string& file_;
-    int line_ = 0;
+    int ended_ = 0, line_ = 0;  // lines that were gone past; the one that was read from last
     std::optional<Problem> problem_;
 };
 

@@ -226,7 +226,7 @@ private:
         if (json.object()) {
             const scene::Material own = read_own_material(json, measure_, place, problems);
             auto& all = scene().materials;
-            auto same = std::find_if(all.begin(), all.end(), [&own](const scene::Material& m) { return m.name == own.name && m.model == own.model; });
+            auto same = std::find_if(all.begin(), all.end(), [&own](const scene::Material& m) { return m.name == own.name && m.model == own.model && m.textures == own.textures; });
             if (same == all.end()) same = all.insert(all.end(), own);
             return scene::MaterialId{static_cast<std::uint32_t>(same - all.begin())};
         }

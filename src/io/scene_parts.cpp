@@ -300,7 +300,7 @@ scene::Material read_material(const Json& json, const Measure& measure, const Pl
     std::visit([&](auto& m) {
         read_fields(json, m, std::remove_cvref_t<decltype(m)>::fields(), measure, place, problems, own);
     }, material.model);
-    if (const Json* textures = json.find(own[2])) read_textures(*textures, material, measure, place / own[2], problems);
+    if (const Json* textures = json.find(own[3])) read_textures(*textures, material, measure, place / own[3], problems);
     return material;
 }
 

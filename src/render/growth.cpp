@@ -6,6 +6,7 @@
 #include "math/octahedral.h"
 #include "render/environment.h"
 #include "render/hit_surface.h"
+#include "render/light_seen.h"
 #include "render/medium.h"
 #include "render/surface_lobes.h"
 
@@ -40,42 +41,9 @@ Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) {
 
 constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
 
-// Light of the lights with extent that a ray passes; the camera does not see all of them.
-Rgb lights_on(const World& world, const Ray& ray, bool by_camera) {
-    Rgb sum;
-    if (world.emitters.groups() == 0) return sum;
-    std::vector<Emitted> met;
-    world.emitters.lights_on(ray, ray.origin, met);
-    for (const Emitted& light : met) {
-        if (light.visible || !by_camera) sum += light.radiance * world.emitters.scale(light.group);
-    }
-    return sum;
-}
-
-// That of the ray which ended on the node's surface.
-Rgb lights_before(const World& world, const Tile& tile, const Node& node) {
-    if (world.emitters.groups() == 0) return {};
-    const bool root = node.parent == no_node;
-    Ray ray;
-    ray.origin = root ? world.camera.origin_towards(node.position) : tile.nodes[node.parent].position;
-    const Vec3 way = node.position - ray.origin;
-    ray.t_max = length(way);
-    ray.direction = way / ray.t_max;
-    return lights_on(world, ray, root);
-}
-
 }  // namespace
 
 geometry::Ray camera_ray(const World& world, LatticePoint point) { return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step); }
-
-Rgb sky_seen(const World& world, LatticePoint point) {
-    const Ray ray = camera_ray(world, point);
-    const bool backdrop = world.environment.backdrop();
-    return lights_on(world, ray, true) + (backdrop ? backdrop_radiance(world.environment, 1 - point.y * pixels_per_step / world.camera.height())
-                                                   : environment_radiance(world.environment, ray.direction));
-}
-
-Rgb sky_seen(const World& world, const Ray& ray) { return lights_on(world, ray, false) + environment_radiance(world.environment, ray.direction); }
 
 std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first) {
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());

@@ -27,10 +27,6 @@ constexpr LatticePoint corner_point(int x, int y) { return {static_cast<std::uin
 
 geometry::Ray camera_ray(const World& world, LatticePoint point);
 
-// Light that a ray meets which leaves the scene: a camera ray through a point of the picture, or any other ray.
-Rgb sky_seen(const World& world, LatticePoint point);
-Rgb sky_seen(const World& world, const geometry::Ray& ray);
-
 // Work is cut into chunks of this many rays, between which a deadline is looked at.
 inline constexpr std::size_t chunk_size = 256;
 

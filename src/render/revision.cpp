@@ -10,6 +10,7 @@
 #include "render/level.h"
 #include "render/level_edges.h"
 #include "render/level_visible.h"
+#include "render/light_seen.h"
 
 namespace crescente::render {
 namespace {
