@@ -312,7 +312,7 @@ private:
         if (json.object()) {
             const scene::Material own = read_own_material(json, measure_, place, problems_);
             for (std::uint32_t i = 0; i < draft_.materials.size(); ++i) {
-                if (draft_.materials[i].name == own.name && draft_.materials[i].model == own.model) return scene::MaterialId{i};
+                if (draft_.materials[i].name == own.name && draft_.materials[i].model == own.model && draft_.materials[i].textures == own.textures) return scene::MaterialId{i};
             }
             return scene::MaterialId{draft_.materials.add(own)};
         }

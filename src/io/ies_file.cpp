@@ -99,6 +99,7 @@ Expected<std::shared_ptr<const scene::LightProfile>> read_ies(std::string_view t
     const double ballast = in.number("the ballast factor");
     in.number("a number for future use"), in.number("the input watts");
     if (multiplier < 0 || ballast < 0) in.wrong("the candela multiplier and the ballast factor must not be negative");
+    if (in.problem()) return problem();
     std::vector<double> vertical = in.numbers(static_cast<std::size_t>(rows), "a vertical angle");
     if (!in.problem() && (!rises(vertical) || !is_one_of(vertical.front(), {0, 90}) || !is_one_of(vertical.back(), {0, 90, 180}))) {
         in.wrong("the vertical angles must rise from 0 or 90 to 90 or 180 degrees");

@@ -124,7 +124,6 @@ private:
         if (const Json* materials = json.find("materials")) {
             for_each_entry(*materials, top / "materials", problems_, [&](const Json& value, const Place& place, const std::string& key) {
                 scene().materials.push_back(read_material(value, measure_, place, problems_));
-                find_images_in(scene().materials.back(), folder_);
                 scene().materials.back().name = read_name(value, place, key, problems_);
                 materials_.add(handle(key, scene().materials.back().name), std::uint32_t(scene().materials.size() - 1), value, place, problems_);
             });

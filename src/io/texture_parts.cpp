@@ -44,6 +44,20 @@ std::span<const Word> texture_words() {
     return words;
 }
 
+namespace {
+
+void find_images_in(scene::Material& material, const std::filesystem::path& folder) {
+    for (scene::TextureBinding& binding : material.textures) {
+        const scene::TextureImage* image = binding.texture.image.get();
+        if (!image || image->source().file.empty()) continue;
+        scene::ImageSource source = image->source();
+        source.file = (folder / source.file).string();
+        binding.texture.image = std::make_shared<const scene::TextureImage>(std::move(source));
+    }
+}
+
+}  // namespace
+
 void read_textures(const Json& json, scene::Material& material, const Measure& measure, const Place& place, ProblemList& problems) {
     if (!json.object()) return problems.add(json, place, "is " + std::string(json.kind()) + ", must be an object");
     const auto targets = scene::texture_targets(material);
@@ -60,16 +74,7 @@ void read_textures(const Json& json, scene::Material& material, const Measure& m
         std::size_t index = 0;
         for (const Json& one : *member.value.array()) material.textures.push_back({member.key, read_texture(one, measure, here / index++, problems)});
     }
-}
-
-void find_images_in(scene::Material& material, const std::filesystem::path& folder) {
-    for (scene::TextureBinding& binding : material.textures) {
-        const scene::TextureImage* image = binding.texture.image.get();
-        if (!image || image->source().file.empty()) continue;
-        scene::ImageSource source = image->source();
-        source.file = (folder / source.file).string();
-        binding.texture.image = std::make_shared<const scene::TextureImage>(std::move(source));
-    }
+    find_images_in(material, std::filesystem::path(problems.file()).parent_path());
 }
 
 ordered_json write_textures(const scene::Material& material, const Measure& measure) {

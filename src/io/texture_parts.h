@@ -12,11 +12,9 @@ namespace crescente::io {
 // Besides the fields of scene::Texture.
 std::span<const Word> texture_words();
 
-// The material's textures: an object by what each acts on, of one texture or a list of them. Pictures are named, as the text says, not read (io/texture_files.h).
+// The material's textures: an object by what each acts on, of one texture or a list of them. Pictures are named, not read (io/texture_files.h); their relative paths
+// begin in the folder of the problems' file.
 void read_textures(const Json& json, scene::Material& material, const Measure& measure, const Place& place, ProblemList& problems);
-
-// Relative paths of the material's pictures begin in the folder.
-void find_images_in(scene::Material& material, const std::filesystem::path& folder);
 
 nlohmann::ordered_json write_textures(const scene::Material& material, const Measure& measure);
 

@@ -72,7 +72,7 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
     rays_ = smooth_weights(lobes, v_.z, facing.inside);
 
     double weights[lobe_count] = {};
-    weights[diffuse] = mean(lobes.ambient_diffuse) * (lobes.layered() ? 1 - layer_over_diffuse(v_.z) : 1);
+    weights[diffuse] = lobes.layered() ? mean(lobes.diffuse) * pi * (1 - layer_over_diffuse(v_.z)) : mean(lobes.diffuse);
     if (lobes.layered() && !mirror_base_) {
         const SplitSum sum = split_sum(lobes.sums, v_.z);
         weights[multiple] = mean(lobes.multiple) * sum.missing();
@@ -153,7 +153,7 @@ void Scattering::add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const {
     if (chances_[diffuse] == 0 || l.z <= 0) return;
     sum.pdf += chances_[diffuse] * l.z / pi;
     if (!lobes_.layered()) {
-        sum.diffuse = lobes_.ambient_diffuse * static_cast<float>(l.z / pi);
+        sum.diffuse = lobes_.diffuse * static_cast<float>(l.z / pi);
         return;
     }
     double radiance[3];

@@ -48,7 +48,8 @@ private:
         change_.anew = before_.camera != now_.camera || a.width != b.width || a.height != b.height || a.tile != b.tile || a.keep != b.keep ||
                        b.level < a.level || a.subpixel_shortcut != b.subpixel_shortcut || before_.absorbs != now_.absorbs;
         change_.frontier = a.threshold != b.threshold || a.depth != b.depth;
-        change_.depth = a.depth != b.depth;
+        const bool begins_to_sample = a.level <= scene::Level::edges && b.level > scene::Level::edges;
+        change_.depth = a.depth != b.depth || begins_to_sample;  // other weights
         change_.splitting = a.supersampling != b.supersampling || a.contrast != b.contrast;
         change_.stages = a.level != b.level || a.threshold != b.threshold || a.supersampling != b.supersampling;
         if (b.level > scene::Level::edges) change_.stages = change_.stages || a.samples != b.samples || a.noise != b.noise || a.exposure != b.exposure;
@@ -63,17 +64,18 @@ private:
         bool same = same_number && change_.same_geometry && !change_.any_reassigned && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
         for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
         for (std::size_t i = 0; same && i < change_.lobes.size(); ++i) {
+            if (!change_.lobes[i].light) continue;
             const bool textured = before_.textured_material(static_cast<std::uint32_t>(i)) || now_.textured_material(static_cast<std::uint32_t>(i));
-            if (change_.lobes[i].light) same = !textured && same_but_for_emission(before_.lobes[i], now_.lobes[i]);
+            same = !textured && same_but_for_emission(before_.lobes[i], now_.lobes[i]);
         }
         bool same_lights = before_.lights.size() == now_.lights.size();
         same = same && same_lights;
-        for (std::size_t l = 0; same_lights && l < now_.lights.size(); ++l) {
-            if (now_.lights[l].has_extent()) same_lights = before_.lights[l].source() == now_.lights[l].source();
+        for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
+            if (before_.lights[l].has_extent() || now_.lights[l].has_extent()) same_lights = same_lights && before_.lights[l].source() == now_.lights[l].source();
             else same = same && change_.lights[l] == LightChange::none;
         }
         change_.resamples = !same;
-        if (!same_lights) change_.all_lit = change_.sky = true;  // rays see them
+        if (!same_lights || a.level <= scene::Level::edges) change_.all_lit = change_.sky = true;  // rays see them
         for (std::size_t g = 0; same_number && g < y.groups(); ++g) change_.all_lit = change_.all_lit || y.scale(g) != x.scale(g);
     }
     static bool same_but_for_emission(const Lobes& before, Lobes now) {

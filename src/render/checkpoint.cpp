@@ -180,6 +180,7 @@ Expected<Checkpoint> read_all(const fs::path& file, const World& world) {
     if (picture_text(head->settings) != picture_text(now)) return reader->wrong("", "is of a picture of " + picture_text(head->settings) + ", not of " + picture_text(now));
 
     const std::vector<Stage> stages = stages_of(head->settings);
+    const scene::Level head_level = head->settings.level;
     Checkpoint checkpoint{std::move(*head), cut_tiles(now)};
     for (std::size_t i = 0; i < checkpoint.tiles.size(); ++i) {
         Tile& tile = checkpoint.tiles[i];
@@ -188,6 +189,8 @@ Expected<Checkpoint> read_all(const fs::path& file, const World& world) {
         if (!bytes) return tl::unexpected(bytes.error());
         auto read = tile_of(*bytes, tile);
         if (!read) return reader->wrong(place, "is damaged: its columns do not fit");
+        // Trees of a level that samples begin again at one that does not; of which groups of lights their samples are, its world does not know.
+        if (head_level > scene::Level::edges && now.level <= scene::Level::edges) forget_samples(*read);
         if (const std::string problem = tile_problem(*read, world, stages); !problem.empty()) return reader->wrong(place, "is damaged: it " + problem);
         tile = std::move(*read);
         for (const Node& node : tile.nodes) tile.materials |= std::uint64_t{1} << node.material % 64;

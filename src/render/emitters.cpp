@@ -181,7 +181,9 @@ void Emitters::add_object(const World& world, std::uint32_t instance) {
         const std::uint32_t material = world.material(instance, slot), group = group_of_material_[material];
         if (group == none || !(shape.area() > 0)) continue;
         if (world.textured_material(material)) {  // whose light is another at every place
-            groups_[group].unsampled.push_back({world.identity[instance], object.to_world, radiance_of_material_[material]});
+            const Unsampled found{world.identity[instance], object.to_world, radiance_of_material_[material]};
+            auto& all = groups_[group].unsampled;
+            if (all.empty() || all.back() != found) all.push_back(found);
             continue;
         }
         places.by_primitive.resize(primitive + 1, {none, none});

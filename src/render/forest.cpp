@@ -36,6 +36,19 @@ void Tile::trim() {
     shrink(nodes), shrink(shares), shrink(samples), shrink(estimates), shrink(pending), shrink(quads), shrink(todo);
 }
 
+void show_without_samples(Tile& tile) {
+    for (Node& node : tile.nodes) {
+        if (!node.sampled) continue;
+        node.sampled = node.samples_reflection = node.samples_refraction = false;
+        node.shadowed = false;
+    }
+}
+
+void forget_samples(Tile& tile) {
+    show_without_samples(tile);
+    release(tile.samples), release(tile.estimates);
+}
+
 std::vector<Tile> cut_tiles(const scene::Settings& settings) {
     std::vector<Tile> tiles;
     for (int y = 0; y < settings.height; y += settings.tile) {

@@ -154,6 +154,10 @@ Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radia
     return tile.nodes[node].parent == no_node ? sum * tile.nodes[node].weight : sum;
 }
 
+// Takes the light of samples out of the nodes, which are to be lit again. What the samples told is kept, or forgotten too.
+void show_without_samples(Tile& tile);
+void forget_samples(Tile& tile);
+
 // The tiles of a picture, row by row, for which nothing was done yet.
 std::vector<Tile> cut_tiles(const scene::Settings& settings);
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "math/octahedral.h"
+#include "render/bsdf.h"
 #include "render/environment.h"
 #include "render/hit_surface.h"
 #include "render/light_seen.h"
@@ -104,7 +105,7 @@ void Growth::append() {
             if (!(found >> i & 1)) {
                 node.position = rays_[block + i].direction;
                 node.shadowed = true;
-                if (node.parent != no_node) node.local = sky_seen(world_, rays_[block + i]);
+                if (node.parent != no_node) node.local = sky_seen(world_, {tile_.nodes[node.parent].position, node.position});
                 continue;
             }
             node.position = lane(at.position, i);
@@ -371,7 +372,13 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) {
             node.spawned = true;
             const Lobes& lobes = *p.lobes[i];
             if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
-            const ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
+            ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
+            if (settings_.level > scene::Level::edges) {  // rough lobes will be sampled: the rays of smooth ones carry these alone
+                const Smooth smooth = smooth_lobes(lobes);
+                const ChildWeights alone = smooth_weights(lobes, cosines[i], node.inside);
+                if (smooth.reflects) weights.reflected = alone.reflected;
+                if (smooth.refracts) weights.refracted = alone.refracted;
+            }
             const Rgb above = influence(tile_, p.node[i]);
             if (!is_black(weights.reflected)) pending.push_back({p.node[i], weights.reflected, max_component(above * weights.reflected), Way::reflected});
             if (!is_black(weights.refracted)) pending.push_back({p.node[i], weights.refracted, max_component(above * weights.refracted), Way::refracted});

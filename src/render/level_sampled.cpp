@@ -55,6 +55,7 @@ public:
             chunk_.clear();
             if (!complete) return false;
             tile_.cursor = end;
+            if (deadline.passed() && end < tile_.nodes.size()) return false;
         }
         return true;
     }

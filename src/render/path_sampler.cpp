@@ -17,6 +17,7 @@ using accel::Hit;
 using geometry::Ray;
 
 constexpr std::size_t groups_at_once = 4;  // of those with extent that a point sends a ray to in one sample; the next samples take the next ones
+constexpr double least_share = 1e-6;       // that is divided by
 constexpr int sure_steps = 2;              // after so many, paths of little throughput may end
 
 // What the numbers of a sample are for: each use has a sequence of its own.
@@ -76,8 +77,8 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
             const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path};
             const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
             const auto u = numbers(p, 0, Use::first_light, group);
-            if (const auto arrived = sample_group(vertex, group, chance, false, {u[0], u[1], u[2]})) {
-                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, p.path,
+            if (const auto arrived = sample_group(vertex, group, chance, false, false, {u[0], u[1], u[2]})) {
+                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, p.path, arrived->share,
                                  arrived->value.glossy * arrived->light});
             }
         }
@@ -94,7 +95,7 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
         path.from = p.position, path.length = p.path;
         path.pdf = s->value.pdf;
         path.chance = chance;
-        path.scattered = s->part == Part::diffuse, path.glossy_last = s->part == Part::glossy;
+        path.scattered = s->part == Part::diffuse;
         paths_.push_back(path);
         rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path}, s->direction));
     }
@@ -121,12 +122,13 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             meet_lights(path, ray, hit);
             if (!hit.found()) continue;
             const std::uint32_t material = at.material[i];
-            const TexturedMaterial* textured = world_.textured_material(material);
             const bool blurs = path.scattered && !world_.blurred_lobes.empty();
+            const TexturedMaterial* textured = world_.textured_material(material);
+            if (textured && blurs) textured = world_.blurred_textured[material].get();
             const Lobes& plain = (blurs ? world_.blurred_lobes : world_.lobes)[material];
-            Lobes scratch;
             const TexturePoint place = textured ? texture_point(world_, ray, hit, path.length) : TexturePoint{};
-            const Lobes& lobes = textured ? lobes_at(world_, material, place, scratch) : plain;
+            const Lobes own = textured ? textured->lobes_at(place) : Lobes{};
+            const Lobes& lobes = textured ? own : plain;
             Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t};
             if (textured && textured->has_relief()) vertex.facing.shading = textured->normal_at(place, vertex.facing.shading);
             if (vertex.facing.inside && !is_black(lobes.attenuation)) {
@@ -157,35 +159,35 @@ void PathSampler::meet_lights(const Path& path, const Ray& ray, const Hit& hit) 
 
 // Light that a path met, as far as it was not sampled where its ray starts.
 void PathSampler::take(const Path& path, const Emitted& emitted, Rgb texture) {
-    if (!world_.emitters.casts_shadows(emitted.group)) return;  // lights that nothing is in the way of are only sampled
+    if (!is_met(emitted.group)) return;
     const bool unlit = path.sharp && !settings_.caustics;
-    if (unlit && path.scattered) return;
-    const bool highlights = world_.emitters.makes_highlights(emitted.group);
-    if (!highlights && path.glossy_last) return;
+    if (unlit && path.scattered_later) return;
     const double share = path.pdf == 0 ? 1 : power_share(path.pdf, path.chance * emitted.pdf);
     const Rgb light = path.throughput * emitted.radiance * texture * static_cast<float>(share);
-    add(path.point, emitted.group, unlit ? Rgb{} : path.diffuse * light, highlights || path.depth > 0 ? path.glossy * light : Rgb{});
+    add(path.point, emitted.group, unlit ? Rgb{} : path.diffuse * light, path.glossy * light);
 }
 
 // Light at a vertex of a path, and its next ray.
 void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& point) {
     const int depth = ++path.depth;
+    const bool last = depth >= settings_.depth;
     const auto scatter_numbers = numbers(point, depth, Use::scatter);
     if (groups_ > 0) {
         const auto u = numbers(point, depth, Use::light);
         const auto group = std::min(static_cast<std::size_t>(u[3] * static_cast<double>(groups_)), groups_ - 1);
-        if (const auto arrived = sample_group(vertex, group, 1.0 / static_cast<double>(groups_), true, {u[0], u[1], u[2]})) {
+        if (const auto arrived = sample_group(vertex, group, 1.0 / static_cast<double>(groups_), true, last, {u[0], u[1], u[2]})) {
             const Rgb light = path.throughput * arrived->light, spread = light * arrived->value.diffuse, sharp = light * arrived->value.glossy;
             const Rgb for_diffuse = bends(*vertex.lobes) && !settings_.caustics ? spread : spread + sharp;
             queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(group), path.diffuse * for_diffuse,
-                                     path.glossy * (path.scattered ? for_diffuse : spread), vertex.path, path.scattered ? Rgb{} : path.glossy * sharp});
+                                     path.glossy * (path.scattered_later ? for_diffuse : spread), vertex.path, arrived->share,
+                                     path.scattered_later ? Rgb{} : path.glossy * sharp});
         }
     }
     if (const auto arrived = sample_lamp(vertex, numbers(point, depth, Use::lamp)[0])) {
         const Rgb light = path.throughput * arrived->light;
-        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light, vertex.path, {}});
+        queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light, vertex.path, 1, {}});
     }
-    if (depth >= settings_.depth) return;
+    if (last) return;
     if (depth >= sure_steps) {  // Russian roulette (Arvo and Kirk 1990)
         const double survival = std::min(0.95, double(max_component(path.throughput)));
         if (scatter_numbers[3] >= survival) return;
@@ -196,29 +198,29 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
     const Rgb all = over(s->value.diffuse + s->value.glossy, s->value.pdf);
     path.throughput_on = path.throughput * (goes_on_ || s->delta ? all : over(s->value.glossy, s->value.pdf));
     path.throughput *= all;
-    const bool straight = s->delta && s->direction == -vertex.to_viewer;
+    const bool straight = s->delta && s->crosses && (!bends(*vertex.lobes) || s->direction == -vertex.to_viewer);
     if (!straight) {  // else its ray goes on as if there were nothing
         path.from = vertex.position, path.length = vertex.path;
         path.pdf = s->delta ? 0 : s->value.pdf;
         path.chance = groups_ == 0 ? 0 : 1.0 / static_cast<double>(groups_);
         path.sharp = s->delta || (s->part == Part::glossy && bends(*vertex.lobes));  // what comes so through glass, shadow rays have told
-        path.scattered = path.scattered || s->part == Part::diffuse;
-        path.glossy_last = s->part == Part::glossy;
+        path.scattered_later = path.scattered_later || s->part == Part::diffuse;
+        path.scattered = path.scattered || path.scattered_later;
     }
     next_.push_back(path);
-    next_rays_.push_back(ray_from(vertex, s->direction));
+    next_rays_.push_back(ray_from(vertex, straight ? -vertex.to_viewer : s->direction));
 }
 
-// A direction to a group, weighed against the directions that the material draws. chance: that the group is sampled here.
-std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, std::size_t group, double chance, bool with_delta, const std::array<double, 3>& u) const {
+// A direction to a group, weighed against the directions that the material draws. chance: that the group is sampled here. last: no direction is drawn here.
+std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const {
     const auto sample = world_.emitters.sample(group, v.position, u);
     if (!sample || !(sample->pdf > 0)) return std::nullopt;
     Arrived arrived{scatter(*v.lobes, v.facing, v.to_viewer, sample->direction, with_delta), sample->direction, sample->distance, {}};
     if (!world_.emitters.makes_highlights(group)) arrived.value.glossy = {};
     if (is_black(arrived.value.diffuse) && is_black(arrived.value.glossy)) return std::nullopt;
     const double density = chance * sample->pdf;
-    const double share = world_.emitters.casts_shadows(group) ? power_share(density, arrived.value.pdf) : 1;
-    arrived.light = sample->radiance * static_cast<float>(share / density);
+    if (is_met(group) && !last) arrived.share = power_share(density, arrived.value.pdf);
+    arrived.light = sample->radiance * static_cast<float>(arrived.share / density);
     return arrived;
 }
 
@@ -251,6 +253,9 @@ std::optional<PathSampler::Arrived> PathSampler::sample_lamp(const Vertex& v, do
     if (!lamp.casts_shadows()) arrived.distance = 0;
     return arrived;
 }
+
+// Whether rays that meet the group's light take it. What nothing is in the way of, and what makes no highlights, is only sampled.
+bool PathSampler::is_met(std::size_t group) const { return world_.emitters.casts_shadows(group) && world_.emitters.makes_highlights(group); }
 
 Ray PathSampler::ray_from(const Vertex& v, Vec3 direction) const {
     Ray ray;
@@ -286,8 +291,11 @@ void PathSampler::trace_connections() {
             continue;
         }
         const Rgb filter = passage(world_, {first, crossing}, shadow_rays_[i], c.path, settings_.caustics);
-        const Rgb clear = is_black(c.mirrored) ? Rgb{} : passage(world_, {first, crossing}, shadow_rays_[i], c.path, true);
-        add(c.point, c.group, c.diffuse * filter, c.glossy * filter + c.mirrored * clear);
+        const Rgb unbent = settings_.caustics ? filter : passage(world_, {first, crossing}, shadow_rays_[i], c.path, true);
+        // Of what comes through, paths find what is not bent, if they go on at all; of the rest these have the whole.
+        const Rgb found = goes_on_ ? unbent : Rgb{};
+        const Rgb whole = c.share > least_share ? found + (filter - found) * static_cast<float>(1 / c.share) : filter;
+        add(c.point, c.group, c.diffuse * whole, c.glossy * whole + c.mirrored * unbent);
     }
     shadow_rays_.clear(), connections_.clear();
 }

@@ -51,14 +51,15 @@ private:
         double pdf;           // of the ray's direction; 0: a smooth lobe's
         double chance;        // that a light was also sampled where the ray starts
         std::uint8_t depth;
-        bool scattered;       // some lobe on the way was diffuse
-        bool glossy_last;     // the lobe that sent the ray was
+        bool scattered;       // some lobe on the way was diffuse: what follows is blurred
+        bool scattered_later;  // some lobe after the first point's was
         bool sharp;           // a mirror or a body that bends light sent it: unless caustics are asked for, diffuse surfaces do not get lights that it meets
     };
     struct Connection {  // a shadow ray, and what it brings if nothing is in the way
         std::uint32_t point, group;
         Rgb diffuse, glossy;
         double path;   // length of the way from the camera to where the ray starts, m
+        double share;  // that these have of the light, besides what paths find
         Rgb mirrored;  // of the glossy part too, by no diffuse lobe: not through what bends light, since paths find what comes so
     };
     struct Vertex {  // where a path met a surface
@@ -74,17 +75,19 @@ private:
         Vec3 direction;
         double distance;
         Rgb light;
+        double share = 1;  // counted in `light`: the rest is left to directions that the material draws
     };
     void begin(std::span<const SamplePoint> points);
     void step(std::span<const SamplePoint> points);
     void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);
     void take(const Path& path, const Emitted& emitted, Rgb texture = {1, 1, 1});
     void go_on(const Vertex& vertex, Path path, const SamplePoint& point);
-    std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, const std::array<double, 3>& u) const;
+    std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const;
     std::optional<Arrived> sample_lamp(const Vertex& vertex, double u);
     void queue(const Vertex& vertex, const Arrived& arrived, const Connection& connection);
     void trace_connections();
     void add(std::uint32_t point, std::size_t group, Rgb diffuse, Rgb glossy);
+    bool is_met(std::size_t group) const;
     geometry::Ray ray_from(const Vertex& vertex, Vec3 direction) const;
 
     const World& world_;

@@ -20,20 +20,6 @@ int all_roots(const scene::Settings& settings) { return stages_to_all_roots(sett
 
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
-// Takes the light of samples out of the nodes, which are to be lit again. What the samples told is kept.
-void show_without_samples(Tile& tile) {
-    for (Node& node : tile.nodes) {
-        if (!node.sampled) continue;
-        node.sampled = node.samples_reflection = node.samples_refraction = false;
-        node.shadowed = false;
-    }
-}
-
-void forget_samples(Tile& tile) {
-    show_without_samples(tile);
-    release(tile.samples), release(tile.estimates);
-}
-
 class Reviser {
 public:
     Reviser(Tile& tile, const World& before, const World& now, const Change& change, bool watched)
@@ -63,6 +49,7 @@ public:
         update_shares();
         tile_.split_anew = tile_.split_anew || lost_roots_ || untidy || change_.splitting || change_.stages;
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
+        if (tile_.pixels_stage > tile_.stage) tile_.pixels_stage = tile_.lit ? -1 : 0;  // of a longer plan, maybe
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
         if (watched_ && touched_ && !lost_roots_ && !tile_.unsettled) tile_.pixels = develop(tile_);
         if (touched_) tile_.previewed_until = 0;

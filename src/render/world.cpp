@@ -9,14 +9,26 @@ namespace {
 scene::Material blurred(scene::Material material) {
     constexpr double least_roughness = 0.55;
     auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
-    if (m && m->transmission == 0) m->roughness = std::max(m->roughness, least_roughness);
+    if (!m || m->transmission * (1 - m->metallic) > 0) return material;
+    m->roughness = std::max(m->roughness, least_roughness), m->clearcoat_roughness = std::max(m->clearcoat_roughness, least_roughness);
+    std::erase_if(material.textures, [](const scene::TextureBinding& b) { return b.target == "roughness" || b.target == "clearcoat_roughness"; });
+    return material;
+}
+
+// What is asked of a material as a whole is asked of the glass that it is where its texture says that it is no metal.
+scene::Material as_a_whole(scene::Material material) {
+    auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
+    const auto textures_metal = [](const scene::TextureBinding& b) { return b.target == "metallic"; };
+    if (m && m->transmission > 0 && std::any_of(material.textures.begin(), material.textures.end(), textures_metal)) m->metallic = 0;
     return material;
 }
 
 // All but the accelerator.
 void derive(World& world) {
     const scene::Scene& s = world.scene;
-    world.lobes = compile(s.materials);
+    std::vector<scene::Material> whole;
+    for (const scene::Material& material : s.materials) whole.push_back(as_a_whole(material));
+    world.lobes = compile(whole);
     world.lobes.push_back(compile(scene::Material{}));
     const auto default_material = static_cast<std::uint32_t>(world.lobes.size() - 1);
     for (std::size_t i = 0; i < s.materials.size(); ++i) {
@@ -54,8 +66,13 @@ void derive(World& world) {
     if (s.environment) world.environment = Environment(*s.environment);
     world.camera_media = media_around_camera(world);
     if (s.settings.level > scene::Level::edges && !s.settings.caustics) {
-        for (const scene::Material& material : s.materials) world.blurred_lobes.push_back(compile(blurred(material)));
-        world.blurred_lobes.push_back(world.lobes.back());
+        world.blurred_lobes = world.lobes;
+        world.blurred_textured = world.textured;
+        for (std::size_t i = 0; i < s.materials.size(); ++i) {
+            const scene::Material soft = blurred(whole[i]);
+            if (soft.model != whole[i].model) world.blurred_lobes[i] = compile(soft);
+            if (world.textured_material(static_cast<std::uint32_t>(i))) world.blurred_textured[i] = std::make_shared<const TexturedMaterial>(soft);
+        }
     }
     if (s.settings.level > scene::Level::edges) world.emitters = Emitters(world);
 }

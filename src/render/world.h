@@ -41,6 +41,7 @@ struct World {
     std::vector<Medium> camera_media;
     Emitters emitters;           // what has extent, for the levels that sample it; none below them
     std::vector<std::shared_ptr<const TexturedMaterial>> textured;  // beside lobes; null: without textures; empty: no material has any
+    std::vector<std::shared_ptr<const TexturedMaterial>> blurred_textured;  // as blurred_lobes
     bool bends_normals = false;                                     // some have relief
 
     const TexturedMaterial* textured_material(std::uint32_t material) const { return textured.empty() ? nullptr : textured[material].get(); }

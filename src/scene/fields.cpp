@@ -43,7 +43,7 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
 
 const FieldTable<Light>& Light::fields() {
     static const FieldTable<Light> table{
-        field(&Light::kind, {"kind", FieldType::choice, "", 0, 1, "What shines", {"point", "directional", "rectangle", "disk", "sphere"}}),
+        field(&Light::kind, {"kind", FieldType::choice, "", 0, 4, "What shines", {"point", "directional", "rectangle", "disk", "sphere"}}),
         field(&Light::position, {"position", FieldType::vector, "m", -unbounded, unbounded, "Place of a point light, centre of one with extent"}),
         field(&Light::direction, {"direction", FieldType::vector, "", -unbounded, unbounded, "Where it shines"}),
         field(&Light::color, {"color", FieldType::color, "", 0, unbounded, "Linear RGB"}),

@@ -56,7 +56,7 @@ void frame(const Scene& scene, Camera& camera, Vec3 towards_camera, double aspec
 }
 
 // A soft key light: points spread evenly over a disk (Vogel 1979, sunflower) that faces the model. Together they make
-// penumbras until the level of area lights is there.
+// penumbras at levels that sample nothing.
 void add_soft_box(Scene& scene, const std::string& name, Vec3 center, Vec3 from, double distance, double size, int points, double irradiance,
                   math::Rgb color) {
     const Vec3 u = math::perpendicular(from), v = cross(from, u);

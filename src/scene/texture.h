@@ -2,7 +2,7 @@
 //
 // A texture is a value of its material. It says where its values come from (a picture, a procedure, the vertices' colours), how places on a surface become
 // coordinates (the surface's own, or a projection: CAD parts come without any), and what of the values is taken. render/texture_mapping.h and
-// render/texture_values.h make of it what the tracer asks.
+// render/textured_material.h make of it what the tracer asks.
 #pragma once
 
 #include <memory>

@@ -126,6 +126,7 @@ private:
         } else {
             auto& p = std::get<PhysicalMaterial>(value.model);
             p.base_color = color();
+            if (random_.chance(0.2)) p.emissive = color();
             if (random_.chance(0.3)) p.double_sided = !p.double_sided;
         }
         if (random_.chance(0.15)) value.textures = any_textures(value);
@@ -135,11 +136,12 @@ private:
         if (s.lights.empty()) return scene::InsertLight{0, {}};
         const auto i = static_cast<std::uint32_t>(random_.below(s.lights.size()));
         scene::Light l = s.lights[i];
-        switch (random_.below(6)) {
+        switch (random_.below(7)) {
             case 0: l.position = l.position + random_.in_cube(1); break;
             case 1: l.color = random_.chance(0.2) ? Rgb{} : color(); break;
             case 2: l.outer_angle = random_.uniform(0.3, math::pi), l.inner_angle = l.outer_angle * random_.uniform(0, 1), l.direction = random_.direction(); break;
             case 3: l.shadows = !l.shadows; break;
+            case 5: l.kind = static_cast<scene::LightKind>(random_.below(5)), l.visible = random_.chance(0.7), l.group = random_.chance(0.3) ? "some" : ""; break;
             case 4: l.intensity = random_.uniform(0, 5), l.radius = random_.chance(0.5) ? 0.5 : 0.2; break;
             default: l.highlights = !l.highlights, l.range = random_.chance(0.5) ? 0 : random_.uniform(2, 9); break;
         }
@@ -172,7 +174,7 @@ private:
             case 4: t.level = static_cast<scene::Level>(random_.below(6)); break;
             case 5: t.threads = 1 + static_cast<int>(random_.below(3)); break;
             case 6: t.accelerator = static_cast<scene::AcceleratorKind>(random_.below(2)); break;
-            case 7: t.samples = 1 + static_cast<int>(random_.below(40)), t.noise = random_.uniform(0.02, 0.5), t.exposure = random_.uniform(-2, 2); break;
+            case 7: t.samples = 1 + static_cast<int>(random_.below(40)), t.noise = random_.uniform(0.02, 0.5), t.caustics = random_.chance(0.5), t.exposure = random_.uniform(-2, 2); break;
             default: t.width = 30 + static_cast<int>(random_.below(50)), t.tile = 16 + static_cast<int>(random_.below(20)); break;
         }
         return scene::SetSettings{t};

@@ -106,14 +106,50 @@ TEST(Sampled, FurnaceFromInside) {
     EXPECT_NEAR(mean.value, 1, 4 * mean.deviation + 3e-3);
 }
 
+// The last vertex of a path still gets the whole light of what shines on it: after one bounce e (1 + a + a^2) is there.
+TEST(Sampled, FurnaceOfOneBounce) {
+    Build b(16, 16);
+    PhysicalMaterial wall = lambert(0.5f);
+    wall.emissive = gray(0.5f);
+    b.place(box({-1, -1, -1}, {1, 1, 1}), b.material(wall));
+    b.scene.camera->position = {0.1, 0.2, 0.3}, b.scene.camera->target = {1, 0.1, 0};
+    Scene scene = sampled(b.scene, scene::Level::indirect, 64);
+    scene.settings.depth = 1;
+    const Mean mean = mean_of(picture_of(scene));
+    EXPECT_NEAR(mean.value, 0.875, 4 * mean.deviation + 3e-3);
+}
+
+// A floor under a sheet and an even sky gets of it what the sheet lets through straight: all directions, not those alone that are drawn for the sky.
+TEST(Sampled, SkyThroughASheet) {
+    constexpr double albedo = 0.6;
+    PhysicalMaterial pane, gauze = lambert(0);
+    pane.base_color = gray(1), pane.transmission = 1, pane.roughness = 0;
+    gauze.opacity = 0.5;
+    const auto floor_under = [&](const PhysicalMaterial& sheet, scene::Level level) {
+        Build b = floor_scene(lambert(albedo));
+        geometry::Disk disk;
+        disk.radius = 1000;
+        b.place(disk, b.material(sheet), at({0, 1, 0}));
+        b.uniform_environment(gray(1), 1);
+        return mean_of(picture_of(sampled(b.scene, level, 64)));
+    };
+    const double filter = 1 - std::pow((1.5 - 1) / (1.5 + 1), 2);
+    const Mean under_pane = floor_under(pane, scene::Level::soft);
+    EXPECT_NEAR(under_pane.value, albedo * filter, 4 * under_pane.deviation + 5e-3);
+    for (const scene::Level level : {scene::Level::soft, scene::Level::indirect}) {
+        const Mean under_gauze = floor_under(gauze, level);
+        EXPECT_NEAR(under_gauze.value, albedo / 2, 4 * under_gauze.deviation + 5e-3) << static_cast<int>(level);
+    }
+}
+
 // Under an even sky everything that absorbs nothing is as bright as the sky.
 TEST(Sampled, FurnaceFromOutside) {
     PhysicalMaterial metal, glass;
     metal.base_color = gray(1), metal.metallic = 1;
     glass.base_color = gray(1), glass.transmission = 1, glass.roughness = 0;
-    for (const double roughness : {0.0, 0.2, 0.5, 1.0}) {
+    for (const double roughness : {0.0, 0.03, 0.2, 0.5, 1.0}) {
         Build b(16, 16);
-        metal.roughness = roughness;
+        metal.roughness = roughness, metal.clearcoat = roughness == 0.2 ? 1 : 0;
         b.place(sphere(1), b.material(metal), at({-1.1, 0, 0}));
         b.place(sphere(1), b.material(lambert(1)), at({1.1, 0, 0}));
         b.uniform_environment(gray(1), 1);
