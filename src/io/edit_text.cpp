@@ -130,13 +130,17 @@ private:
 
     void move(const Json& json, const Place& place) {
         if (!has_members(json, place, move_words(), {"object"})) return;
-        const char* how = one_of(json, place, "transform", "by");
-        if (!how) return;
-        const math::Affine steps = read_transform(*json.find(how), measure_, place / how, problems_);
-        const bool on_top = how == std::string_view("by");
-        for_each_node(*json.find("object"), place / "object", [&](NodeId node) {
-            math::Affine& transform = draft_.nodes.change(node.value).transform;
-            transform = on_top ? steps * transform : steps;
+        const Json* motion = json.find("motion");
+        const bool only_motion = motion && !json.find("transform") && !json.find("by");
+        const char* how = only_motion ? nullptr : one_of(json, place, "transform", "by");
+        if (!how && !only_motion) return;
+        const math::Affine steps = how ? read_transform(*json.find(how), measure_, place / how, problems_) : math::Affine{};
+        std::optional<math::Affine> course;
+        if (motion && !motion->is_null()) course = read_transform(*motion, measure_, place / "motion", problems_);
+        for_each_node(*json.find("object"), place / "object", [&](NodeId id) {
+            scene::Node& node = draft_.nodes.change(id.value);
+            if (how) node.transform = how == std::string_view("by") ? steps * node.transform : steps;
+            if (motion) node.motion = course;
         });
     }
 

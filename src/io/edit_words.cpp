@@ -29,6 +29,7 @@ std::span<const Word> move_words() {
         {"object", "object, or list", "What is moved"},
         {"transform", "step, or list of steps", "Replaces the transform"},
         {"by", "step, or list of steps", "Instead of `transform`: follows what the transform does now, in the space of the object's parent"},
+        {"motion", "step, or list of steps, or `null`", "With these or alone: replaces how it moves while the shutter is open, or takes that away"},
     };
     return words;
 }

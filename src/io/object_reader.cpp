@@ -53,6 +53,7 @@ void ObjectReader::read_into(NodeId node, const Json& json, const Place& place, 
     for (const auto& member : *json.object()) {
         const Place here = place / member.key;
         if (member.key == "transform") read.transform = read_transform(member.value, measure_, here, problems_);
+        else if (member.key == "motion") read.motion = read_transform(member.value, measure_, here, problems_);
         else if (member.key == "shape") read.shape = read_object_shape(member.value, here, read.name);
         else if (member.key == "material") {
             if (const auto material = home_.material(member.value, here, problems_)) read.materials.push_back(*material);

@@ -50,7 +50,7 @@ template <class Owner>
 void turn(Owner& owner, const Affine& rotation, std::initializer_list<Vec3 Owner::*> members) {
     for (const auto member : members) owner.*member = rotation.vector(owner.*member);
 }
-void turn(scene::Camera& c, const Affine& r) { turn(c, r, {&scene::Camera::position, &scene::Camera::target, &scene::Camera::up}); }
+void turn(scene::Camera& c, const Affine& r) { turn(c, r, {&scene::Camera::position, &scene::Camera::target, &scene::Camera::up, &scene::Camera::travel, &scene::Camera::target_travel}); }
 void turn(scene::Light& l, const Affine& r) { turn(l, r, {&scene::Light::position, &scene::Light::direction, &scene::Light::up}); }
 
 bool is_url(const std::string& path) {

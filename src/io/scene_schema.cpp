@@ -141,6 +141,7 @@ ordered_json object_schema() {
                                         {"material", {{"anyOf", {text(), ref("material")}}}},
                                         {"materials", list_of({{"anyOf", {text(), ref("material")}}})},
                                         {"transform", ref("transform")},
+                                        {"motion", ref("transform")},
                                         {"instance", text()},
                                         {"file", text()},
                                         {"children", by_name_or_list("object")},

@@ -27,6 +27,7 @@ std::span<const Word> object_words() {
         {"material", "name of a material, or a material", "For the shape and for everything below that names none; with `file`, replaces the file's own materials"},
         {"materials", "list of names or materials", "The same for shapes with several material slots, in the order of the slots; the last serves the rest"},
         {"transform", "step, or list of steps", "From the object's space to its parent's, the first step first"},
+        {"motion", "step, or list of steps", "How it moves until the end of the motion's time, in the object's space, before `transform`: evenly, rotations by less than half a turn. Blurred by soft and indirect"},
         {"instance", "name of a group", "Shows the group here: shared, not copied"},
         {"file", "path", "Shows a model file here, of any known format; relative to this file. Of a scene file its objects only"},
         {"children", "objects by name, or a list", "Objects in this one's space"},

@@ -257,6 +257,7 @@ private:
             for (const auto material : node.materials) json["materials"].push_back(material_keys_.at(material.value));
         }
         if (node.transform != math::Affine{}) json["transform"] = transform_of(node.transform);
+        if (node.motion) json["motion"] = transform_of(*node.motion);
         if (!node.visible) json["visible"] = false;
         if (!node.children.empty()) {
             ordered_json children = ordered_json::array();

@@ -54,4 +54,6 @@ void Pool::for_each(std::size_t count, const std::function<void(std::size_t)>& w
     takes_over(&order);
 }
 
+void alone(const std::function<void()>& work) { tbb::this_task_arena::isolate(work); }
+
 }  // namespace crescente::parallel

@@ -25,4 +25,8 @@ private:
     std::unique_ptr<Arena> arena_;
 };
 
+// Runs work that may have parallel parts of its own. While it waits for these its thread takes up nothing else: what it holds locked, no other work on this thread
+// can ask for.
+void alone(const std::function<void()>& work);
+
 }  // namespace crescente::parallel

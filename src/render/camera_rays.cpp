@@ -31,6 +31,15 @@ geometry::Ray CameraRays::through(double x, double y) const {
     return ray;
 }
 
+geometry::Ray CameraRays::through_lens(double x, double y, double right, double up, double focus) const {
+    geometry::Ray ray = through(x, y);
+    const Vec3 sharp = ray.origin + ray.direction * (focus / dot(ray.direction, forward_));
+    ray.origin += normalize(right_) * right + normalize(up_) * up;
+    ray.direction = normalize(sharp - ray.origin);
+    ray.t_min = near_ / dot(ray.direction, forward_);
+    return ray;
+}
+
 CameraRays::Projected CameraRays::at(Vec3 across, double depth) const {
     const double sx = dot(across, right_) / dot(right_, right_), sy = dot(across, up_) / dot(up_, up_);
     return {(sx + 1) * width_ / 2, (1 - sy) * height_ / 2, depth};

@@ -17,6 +17,10 @@ public:
     // Through the point (x, y), in pixels from the top left corner; the direction has unit length, t_min is the near plane.
     geometry::Ray through(double x, double y) const;
 
+    // The same from a point of a lens around it, so many metres to the right and up, which is focused at a distance along the view direction. What is there is where
+    // the pinhole sees it.
+    geometry::Ray through_lens(double x, double y, double right, double up, double focus) const;
+
     // Where a point, or a direction, is in the picture, in pixels from the top left corner, and how far along the view direction; nothing if it is not in front
     // of the viewer's near plane. Seen in parallel, no direction has a place.
     struct Projected {

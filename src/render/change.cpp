@@ -68,6 +68,7 @@ private:
             const bool textured = before_.textured_material(static_cast<std::uint32_t>(i)) || now_.textured_material(static_cast<std::uint32_t>(i));
             same = !textured && same_but_for_emission(before_.lobes[i], now_.lobes[i]);
         }
+        same = same && before_.lens == now_.lens && (!now_.lens || same_to_the_lens());
         bool same_lights = before_.lights.size() == now_.lights.size();
         same = same && same_lights;
         for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
@@ -77,6 +78,18 @@ private:
         change_.resamples = !same;
         if (!same_lights || a.level <= scene::Level::edges) change_.all_lit = change_.sky = true;  // rays see them
         for (std::size_t g = 0; same_number && g < y.groups(); ++g) change_.all_lit = change_.all_lit || y.scale(g) != x.scale(g);
+    }
+    // Whether the pixels' samples hold as far as they tell of what trees know without: what is seen without being lit, but for the scales of groups.
+    bool same_to_the_lens() const {
+        for (std::size_t i = 0; i < now_.scene.materials.size(); ++i) {
+            if (i < change_.lobes.size() && change_.lobes[i].light && std::holds_alternative<scene::ClassicMaterial>(now_.scene.materials[i].model)) return false;  // ambient
+        }
+        for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
+            if (before_.lights[l].source().visible != now_.lights[l].source().visible) return false;
+        }
+        scene::Environment around = before_.environment.source();
+        around.strength = now_.environment.source().strength, around.intensity = now_.environment.source().intensity;
+        return around == now_.environment.source();
     }
     static bool same_but_for_emission(const Lobes& before, Lobes now) {
         now.emission = before.emission;

@@ -11,9 +11,6 @@ namespace {
 
 // Two positive numbers in 32 bits: the upper halves of floats, 3 digits each, which is enough to decide by.
 std::uint32_t packed(float a, float b) { return (std::bit_cast<std::uint32_t>(a) & 0xffff0000) | std::bit_cast<std::uint32_t>(b) >> 16; }
-struct Spread {
-    float mean, deviation;  // of luminance, over single samples
-};
 Spread unpacked(std::uint32_t v) { return {std::bit_cast<float>(v & 0xffff0000), std::bit_cast<float>(v << 16)}; }
 
 const Estimate* estimates_of(const World& world, const Tile& tile, std::uint32_t node) { return tile.estimates.data() + node * estimate_groups(world); }
@@ -46,19 +43,25 @@ Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node) {
 }
 
 std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node) {
-    const scene::Settings& settings = world.scene.settings;
-    const Estimate* estimates = estimates_of(world, tile, node);
-    float mean = 0, deviation = 0;  // deviations are added as if the groups erred together
+    // A pixel is the mean of four corners, each with samples of its own.
+    return samples_needed(world, spread_of(world, estimates_of(world, tile, node)), max_component(influence(tile, node)), 4);
+}
+
+Spread spread_of(const World& world, const Estimate* estimates) {
+    Spread sum;
     for (std::size_t g = 0; g < estimate_groups(world); ++g) {
         const Spread spread = unpacked(estimates[g].spread);
         const float scale = max_component(scale_of_group(world, g));
-        mean += scale * spread.mean, deviation += scale * spread.deviation;
+        sum.mean += scale * spread.mean, sum.deviation += scale * spread.deviation;
     }
-    const double influence = max_component(render::influence(tile, node));
+    return sum;
+}
+
+std::uint32_t samples_needed(const World& world, const Spread& spread, double influence, double mean_of) {
+    const scene::Settings& settings = world.scene.settings;
     const double dark = 0.02 * std::exp2(-settings.exposure);  // errors below this, for noise 1, are not seen in dark pixels either
-    const double ratio = influence * deviation / (settings.noise * (influence * mean + dark));
-    // A pixel is the mean of four corners, each with samples of its own.
-    const double wanted = ratio * ratio / 4;
+    const double ratio = influence * spread.deviation / (settings.noise * (influence * spread.mean + dark));
+    const double wanted = ratio * ratio / mean_of;
     std::uint32_t samples = pilot;
     while (samples < wanted && samples < static_cast<std::uint32_t>(settings.samples)) samples *= 2;
     return std::min(samples, std::max(pilot, static_cast<std::uint32_t>(settings.samples)));

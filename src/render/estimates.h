@@ -39,4 +39,13 @@ Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node);
 // influence is below the settings' noise, relative to how bright the node is in the pixel.
 std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node);
 
+// How bright an estimate's pilot was, and how its samples were spread about that: luminances, added over all groups as if these erred together.
+struct Spread {
+    float mean = 0, deviation = 0;
+};
+Spread spread_of(const World& world, const Estimate* estimates);
+
+// The same for samples spread like this, of light that weighs so much in a pixel, which is the mean of so many.
+std::uint32_t samples_needed(const World& world, const Spread& spread, double influence, double mean_of);
+
 }  // namespace crescente::render

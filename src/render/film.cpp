@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "render/level_lens.h"
 #include "render/level_visible.h"
 
 #include "render/surface_lobes.h"
@@ -90,6 +91,7 @@ std::array<std::uint32_t, 4> corners_of(const Tile& tile, int x, int y) {
 
 std::vector<Rgb> develop(const Tile& tile) {
     if (tile.shows_pixels()) return tile.pixels;
+    if (!tile.lens_pixels.empty()) return tile.lens_pixels;
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
     const bool edited = !tile.pixels.empty();  // what is not known anew is still shown as it was
     const std::vector<Quad>& quads = tile.quads_before.empty() ? tile.quads : tile.quads_before;
@@ -170,6 +172,7 @@ void expose(const Tile& tile, const World& world, std::span<const scene::Level> 
     }
     if (image.layers.size() == 1 || tile.corners.empty()) return;
 
+    const LensPixels lens = lens_pixels_of(tile, world.scene.settings);
     const float level = tile.stage == 0 ? 0.0f : static_cast<float>(level_of_stage[static_cast<std::size_t>(tile.stage - 1)]);
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
@@ -184,7 +187,9 @@ void expose(const Tile& tile, const World& world, std::span<const scene::Level> 
             };
             const Node& node = tile.nodes[root];
             if (!previewed) set(8, {level});
-            set(9, {double(tile.quads.empty() ? 1u : samples_in(tile, tile.quads[static_cast<std::size_t>(y) * tile.width + x]))});
+            const bool by_lens = !tile.lens_samples.empty();
+            if (by_lens) set(9, {double(tile.lens_samples[lens.at(tile.x0 + x, tile.y0 + y)])});
+            else set(9, {double(tile.quads.empty() ? 1u : samples_in(tile, tile.quads[static_cast<std::size_t>(y) * tile.width + x]))});
             // What the rays that go on from there together weigh in the pixel.
             Rgb left;
             for_each_child(tile, root, [&](std::uint32_t child, Way) { left += tile.nodes[child].weight; });

@@ -103,6 +103,7 @@ Fingerprint fingerprint_of(const scene::Scene& scene) {
     }
     objects.size(scene.nodes, 1);
     for (const scene::Node& node : scene.nodes) {
+        if (node.motion) add(objects, *node.motion);
         add(objects, node.transform), add(objects, node.shape), add(objects, node.materials), add(objects, node.children), add(objects, node.visible);
     }
     add(objects, scene.roots);

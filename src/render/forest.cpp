@@ -14,7 +14,8 @@ std::size_t sum_columns(const Tile& tile, Length length) {
         using Value = typename std::remove_cvref_t<decltype(map)>::value_type;
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
-    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.samples) + vector_bytes(tile.estimates) + vector_bytes(tile.corners) +
+    return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.samples) + vector_bytes(tile.estimates) + vector_bytes(tile.lens_samples) +
+           vector_bytes(tile.lens_estimates) + vector_bytes(tile.lens_pixels) + vector_bytes(tile.corners) +
            vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) + vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
@@ -47,6 +48,8 @@ void show_without_samples(Tile& tile) {
 void forget_samples(Tile& tile) {
     show_without_samples(tile);
     release(tile.samples), release(tile.estimates);
+    release(tile.lens_samples), release(tile.lens_estimates), release(tile.lens_pixels);
+    tile.lens_piloted = false;
 }
 
 std::vector<Tile> cut_tiles(const scene::Settings& settings) {

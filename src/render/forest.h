@@ -90,6 +90,9 @@ struct Tile {
     std::unordered_map<std::uint32_t, std::uint32_t> straight;  // children that rays past a node's coverage ended at, by node
     std::vector<std::uint16_t> samples;                    // of each node; empty until a level samples
     std::vector<Estimate> estimates;                       // what they say, groups of node i from i * estimate_groups()
+    std::vector<std::uint16_t> lens_samples;               // of each pixel of level_lens.h, where the picture is taken through a lens; the nodes then have none
+    std::vector<Estimate> lens_estimates;                  // what they say, groups of pixel i from i * estimate_groups()
+    std::vector<Rgb> lens_pixels;                          // what the picture shows of them; empty: it shows the trees
     std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
     std::vector<Pending> pending;
     std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end
@@ -113,6 +116,7 @@ struct Tile {
     std::uint64_t changed = 0;   // when its picture last did, by the session's clock
     bool unsettled = false;      // an edit touched the trees, and what is missing in them has not been looked for
     bool untried = false;        // with that: ways of lights to nodes are not known any more
+    bool lens_piloted = false;   // the pilots of all pixels are complete: their spread holds
     std::size_t forgotten = 0;   // times that a pixel's parts were given up: their roots are still among the nodes
     bool resamples = false;      // with that: samples do not hold any more
     bool split_anew = false;     // with that: splits of pixels are not known any more, or asked for otherwise

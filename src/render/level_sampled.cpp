@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/level_lens.h"
 #include "render/path_sampler.h"
 #include "render/surface_lobes.h"
 
@@ -168,6 +169,8 @@ std::vector<Stage> soft_stages(const scene::Settings& settings) {
 
 std::vector<Stage> indirect_stages(const scene::Settings& settings) { return rounds(scene::Level::indirect, settings); }
 
-bool advance_sampled(Growth& growth, const Stage& stage, const Deadline& deadline) { return Sampling(growth, stage).run(deadline); }
+bool advance_sampled(Growth& growth, const Stage& stage, const Deadline& deadline) {
+    return growth.world().lens ? advance_lens(growth, stage, deadline) : Sampling(growth, stage).run(deadline);
+}
 
 }  // namespace crescente::render

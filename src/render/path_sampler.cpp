@@ -32,20 +32,20 @@ double power_share(double a, double b) { return a <= 0 ? 0 : 1 / (1 + (b / a) * 
 
 bool bends(const Lobes& lobes) { return lobes.refracts() && lobes.ior != 1; }
 
-// 0 where both are.
-Rgb ratio(Rgb a, Rgb b) {
-    const auto channel = [](float x, float y) { return y == 0 ? 0 : x / y; };
-    return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
-}
-
 Rgb over(Rgb color, double divisor) { return color * static_cast<float>(1 / divisor); }
+
+}  // namespace
 
 Rgb absorbed(const Lobes& lobes, double length) {
     const auto d = static_cast<float>(length);
     return {std::exp(-lobes.attenuation.r * d), std::exp(-lobes.attenuation.g * d), std::exp(-lobes.attenuation.b * d)};
 }
 
-}  // namespace
+Rgb emission_factor(const Lobes& textured, const Lobes& plain) {
+    const auto channel = [](float x, float y) { return y == 0 ? 0 : x / y; };
+    const Rgb a = textured.emission, b = plain.emission;
+    return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
 
 PathSampler::PathSampler(const World& world, RayCounts& rays, TestCounts& tests)
     : world_(world),
@@ -82,6 +82,13 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
                                  arrived->value.glossy * arrived->light});
             }
         }
+    }
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const SamplePoint& p = points[i];
+        if (!p.lamps) continue;
+        const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path};
+        const auto arrived = sample_lamp(vertex, numbers(p, 0, Use::lamp)[0]);
+        if (arrived) queue(vertex, *arrived, {i, static_cast<std::uint32_t>(groups_), {}, arrived->light, p.path, 1, {}, true});
     }
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
@@ -136,7 +143,7 @@ void PathSampler::step(std::span<const SamplePoint> points) {
                 path.throughput *= rest, path.throughput_on *= rest;
             }
             if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, material, vertex.position, path.from)) {
-                take(path, *emitted, textured ? ratio(lobes.emission, plain.emission) : Rgb{1, 1, 1});
+                take(path, *emitted, textured ? emission_factor(lobes, plain) : Rgb{1, 1, 1});
             }
             if (!goes_on_ && path.depth == 0) path.diffuse = {};
             path.throughput = path.throughput_on;
@@ -290,7 +297,7 @@ void PathSampler::trace_connections() {
             add(c.point, c.group, c.diffuse, c.glossy + c.mirrored);
             continue;
         }
-        const Rgb filter = passage(world_, {first, crossing}, shadow_rays_[i], c.path, settings_.caustics);
+        const Rgb filter = passage(world_, {first, crossing}, shadow_rays_[i], c.path, settings_.caustics && !c.alone);
         const Rgb unbent = settings_.caustics ? filter : passage(world_, {first, crossing}, shadow_rays_[i], c.path, true);
         // Of what comes through, paths find what is not bent, if they go on at all; of the rest these have the whole.
         const Rgb found = goes_on_ ? unbent : Rgb{};

@@ -25,6 +25,7 @@ struct SamplePoint {
     double path = 0;          // length of the way from the camera, m
     std::uint64_t key = 0;    // of its random numbers
     std::uint32_t index = 0;  // of the sample
+    bool lamps = false;       // lamps without extent that shine on the point are not known otherwise: one of them is sampled
 };
 
 // Radiance to the viewer, by part of the point's material, for a group of scale 1.
@@ -32,12 +33,18 @@ struct SampledLight {
     Rgb diffuse, glossy;
 };
 
+// What is left of light on its way through a body.
+Rgb absorbed(const Lobes& lobes, double length);
+
+// What a texture leaves of a material's emission; 0 where there is none.
+Rgb emission_factor(const Lobes& textured, const Lobes& plain);
+
 class PathSampler {
 public:
     PathSampler(const World& world, RayCounts& rays, TestCounts& tests);
 
     // One sample of every point: light[i * groups + g] is what point i gets by group g of estimate_groups(). Lamps without extent are left out where they shine on
-    // the point itself, and so are its perfectly smooth lobes: these are known without sampling. Light that would not be finite is left out.
+    // the point itself (unless it asks for them), and so are its perfectly smooth lobes: these are known without sampling. Light that would not be finite is left out.
     void sample(std::span<const SamplePoint> points, std::span<SampledLight> light);
 
 private:
@@ -61,6 +68,7 @@ private:
         double path;   // length of the way from the camera to where the ray starts, m
         double share;  // that these have of the light, besides what paths find
         Rgb mirrored;  // of the glossy part too, by no diffuse lobe: not through what bends light, since paths find what comes so
+        bool alone = false;  // nothing else finds any of this light: it passes whatever lets light pass
     };
     struct Vertex {  // where a path met a surface
         Vec3 position;

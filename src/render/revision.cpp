@@ -18,6 +18,8 @@ namespace {
 // The stage that sends a camera ray through every corner that has none.
 int all_roots(const scene::Settings& settings) { return stages_to_all_roots(settings) - 1; }
 
+bool is_sampled(const Tile& tile) { return !tile.samples.empty() || !tile.lens_samples.empty(); }
+
 constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
 class Reviser {
@@ -28,7 +30,8 @@ public:
     void run() {
         const std::size_t count = tile_.nodes.size();
         lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
-        if (change_.resamples && !tile_.samples.empty()) take_samples_back();
+        if (change_.resamples && is_sampled(tile_)) take_samples_back();
+        touched_ = touched_ || !tile_.lens_samples.empty();  // whose light is not that of nodes
         const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
         constexpr std::size_t few = 32;
         const bool untidy = tile_.forgotten * few > count;
@@ -369,7 +372,7 @@ void light_again(Tile& tile, const World& world) {
 void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched) {
     if (!change.touches_trees()) return;
     if (change.anew || tile.nodes.empty()) return begin_anew(tile);
-    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !(change.resamples && !tile.samples.empty())) return;
+    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !(change.resamples && is_sampled(tile))) return;
     Reviser(tile, before, now, change, watched).run();
 }
 
@@ -380,7 +383,7 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const int shadows = first_of(scene::Level::shadows), reflections = first_of(scene::Level::reflections), edges = first_of(scene::Level::edges);
     const int first_round = first_of(settings.level > scene::Level::edges ? settings.level : scene::Level::soft);  // of samples
     const bool untried = std::exchange(tile.untried, false), resamples = std::exchange(tile.resamples, false);
-    const bool sampled = !tile.samples.empty();
+    const bool sampled = is_sampled(tile);
     // The stages go on from a picture without samples, as they did at first; those that still hold come back with the first round.
     if (resamples) forget_samples(tile);
     else if (sampled) show_without_samples(tile);

@@ -133,7 +133,7 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     } else if (change.touches_trees() || !s.steps.empty()) {  // what the steps before changed refers to the worlds on either side
         ++s.edits;
         s.settled = false;
-        old->accelerator.reset();
+        old->moments.reset(), old->accelerator.reset();
         s.steps.push_back({std::move(old), std::move(change)});
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -207,7 +207,7 @@ Stats Session::stats() const {
         stats.levels.push_back({kind.name, s.level_seconds[i], s.level_rays[i]});
     }
     stats.peak_forest_bytes = std::max(s.peak_bytes, stats.forest_bytes);
-    stats.accelerator_bytes = s.world->accelerator->bytes();
+    stats.accelerator_bytes = s.world->accelerator->bytes() + (s.world->moments ? s.world->moments->bytes() : 0);
     stats.dropped_tiles = s.drops;
     stats.nodes += s.dropped_nodes;
     stats.bytes_per_pixel = static_cast<double>(s.dropped_bytes + std::max(s.peak_bytes, stats.forest_bytes)) / (double(s.width()) * s.height());

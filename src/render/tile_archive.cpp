@@ -91,14 +91,15 @@ template <class Archive>
 void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
-    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
+    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, lens_samples, lens_estimates, lens_pixels, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
                             cursor, todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
-                            unsettled, untried, forgotten, resamples, split_anew, ray_counts, test_counts] = tile;
+                            unsettled, untried, lens_piloted, forgotten, resamples, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
     map(a, filtered, [&](std::uint64_t key) { return key < tile.shares.size(); });
     map(a, straight, [&](std::uint32_t key) { return key < tile.nodes.size(); });
     array(a, samples), array(a, estimates);
+    array(a, lens_samples), array(a, lens_estimates), array(a, lens_pixels);
     array(a, corners);
     rays(a, pending), rays(a, growing);
     array(a, quads), array(a, quads_before);
@@ -107,7 +108,7 @@ void columns(Archive& a, Tile& tile) {
     array(a, todo);
     array(a, pixels);
     value(a, pixels_stage);
-    value(a, going_on), value(a, lit), value(a, untried), value(a, resamples), value(a, split_anew);
+    value(a, going_on), value(a, lit), value(a, untried), value(a, resamples), value(a, split_anew), value(a, lens_piloted);
     value(a, forgotten);
     counts(a, ray_counts), counts(a, test_counts);
 }

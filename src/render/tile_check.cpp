@@ -1,9 +1,11 @@
 #include "render/tile_check.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "render/level_edges.h"
+#include "render/level_lens.h"
 
 namespace crescente::render {
 namespace {
@@ -40,6 +42,7 @@ public:
         if (!roots_hold()) return "has a pixel corner without a tree";
         if (!shares_hold()) return "has light that nobody knows of";
         if (!samples_hold()) return "has samples that do not fit its nodes";
+        if (!lens_holds()) return "has samples that do not fit its pixels";
         if (!rays_hold(tile_.pending) || !rays_hold(tile_.growing)) return "has rays that come from nowhere";
         if (!quads_hold(tile_.quads, false) || !quads_hold(tile_.quads_before, true)) return "has pixels whose parts do not fit";
         if (!stopped_soundly()) return "was stopped where it cannot have been";
@@ -64,7 +67,7 @@ private:
         return !tile_.shows_pixels() || (!tile_.pixels.empty() && tile_.pixels_stage >= 0);
     }
     bool is_blank() const {
-        return tile_.nodes.empty() && tile_.shares.empty() && tile_.filtered.empty() && tile_.straight.empty() && tile_.pending.empty() && tile_.growing.empty() &&
+        return tile_.nodes.empty() && tile_.lens_samples.empty() && tile_.lens_estimates.empty() && tile_.lens_pixels.empty() && !tile_.lens_piloted && tile_.shares.empty() && tile_.filtered.empty() && tile_.straight.empty() && tile_.pending.empty() && tile_.growing.empty() &&
                tile_.quads.empty() && tile_.quads_before.empty() && tile_.subpixel_roots.empty() && tile_.todo.empty() && tile_.stage == 0 && tile_.cursor == 0;
     }
 
@@ -134,14 +137,29 @@ private:
         });
     }
     bool samples_hold() const {
-        if (tile_.samples.size() > tile_.nodes.size() || tile_.estimates.size() != tile_.samples.size() * estimate_groups(world_)) return false;
-        const auto sums_hold = [](const Estimate& e) { return math::is_finite(e.diffuse) && math::is_finite(e.glossy); };
+        if (tile_.samples.size() > tile_.nodes.size() || (world_.lens && !tile_.samples.empty()) || tile_.estimates.size() != tile_.samples.size() * estimate_groups(world_)) return false;
         if (!std::all_of(tile_.estimates.begin(), tile_.estimates.end(), sums_hold)) return false;
         for (std::size_t i = 0; i < tile_.nodes.size(); ++i) {
             if (tile_.nodes[i].sampled && (i >= tile_.samples.size() || tile_.samples[i] == 0)) return false;
         }
         return true;
     }
+
+    // Through a lens pixels have samples, all of them once a round is complete.
+    bool lens_holds() const {
+        const bool begun = !tile_.lens_samples.empty();
+        const std::size_t count = begun ? lens_pixels_of(tile_, world_.scene.settings).count() : 0;
+        if (begun && !world_.lens) return false;
+        if (tile_.lens_samples.size() != count || tile_.lens_pixels.size() != (begun ? pixel_count() : 0) || tile_.lens_estimates.size() != count * estimate_groups(world_)) return false;
+        if (!begun) return !tile_.lens_piloted && (!world_.lens || tile_.stage <= first_stage_after(scene::Level::edges));
+        const auto most = tile_.lens_piloted ? std::numeric_limits<std::uint16_t>::max() : pilot;
+        const auto least = tile_.stage > first_stage_after(scene::Level::edges) ? 1u : 0u;
+        const auto samples_hold = [&](std::uint16_t samples) { return samples >= least && samples <= most; };
+        return std::all_of(tile_.lens_samples.begin(), tile_.lens_samples.end(), samples_hold) &&
+               std::all_of(tile_.lens_estimates.begin(), tile_.lens_estimates.end(), sums_hold) &&
+               std::all_of(tile_.lens_pixels.begin(), tile_.lens_pixels.end(), [](Rgb light) { return math::is_finite(light); });
+    }
+    static bool sums_hold(const Estimate& e) { return math::is_finite(e.diffuse) && math::is_finite(e.glossy); }
 
     // Whether the node can have sent this ray, which it does once.
     bool send(std::uint32_t node, Way way) {
@@ -178,7 +196,8 @@ private:
         if (tile_.stage == static_cast<int>(stages_.size())) return false;
         const Stage& stage = stages_[static_cast<std::size_t>(tile_.stage)];
         if (stage.level == scene::Level::edges) return can_go_on(tile_, stage);
-        return tile_.growing.empty() && tile_.cursor <= tile_.nodes.size();
+        const bool by_pixel = world_.lens && stage.level > scene::Level::edges;
+        return tile_.growing.empty() && tile_.cursor <= (by_pixel ? lens_pixels_of(tile_, world_.scene.settings).count() : tile_.nodes.size());
     }
 
     const Tile& tile_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/hierarchy.h"
+
 namespace crescente::render {
 namespace {
 
@@ -38,7 +40,8 @@ void derive(World& world) {
         world.bends_normals = world.bends_normals || world.textured[i]->has_relief();
     }
 
-    scene::walk_appearances(s, [&](const scene::Appearance& at) {
+    std::uint64_t motion = 0;
+    scene::walk_appearances(s, s.camera->shutter_open, [&](const scene::Appearance& at) {
         world.first_slot.push_back(static_cast<std::uint32_t>(world.slots.size()));
         bool opaque = true;
         for (const scene::MaterialId id : *at.materials) {
@@ -54,6 +57,7 @@ void derive(World& world) {
         world.instances.emplace_back(shape, at.to_world, opaque);
         world.node_of_instance.push_back(at.node);
         world.identity.push_back(at.identity);
+        if (at.motion != 0) motion = mix_bits(motion ^ mix_bits(at.identity ^ at.motion)) | 1;
         world.shape_boxes.push_back(geometry::bounds(shape));
         world.boxes.push_back(transform(at.to_world, world.shape_boxes.back()));
     });
@@ -64,6 +68,8 @@ void derive(World& world) {
     }
     for (const scene::Light& light : s.lights) world.lights.emplace_back(light);
     if (s.environment) world.environment = Environment(*s.environment);
+    world.lens = lens_of(world, motion);
+    if (world.lens && world.lens->objects != 0) world.moments = std::make_unique<Moments>(world);
     world.camera_media = media_around_camera(world);
     if (s.settings.level > scene::Level::edges && !s.settings.caustics) {
         world.blurred_lobes = world.lobes;
@@ -90,7 +96,7 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
 }
 
 std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
-    const CameraRays camera(*scene.camera, scene.settings.width, scene.settings.height);
+    const CameraRays camera(scene::camera_at(*scene.camera, scene.camera->shutter_open), scene.settings.width, scene.settings.height);
     auto world = std::make_unique<World>(std::move(scene), camera);
     derive(*world);
     return world;

@@ -10,9 +10,11 @@
 #include "render/camera_rays.h"
 #include "render/emitters.h"
 #include "render/environment.h"
+#include "render/lens.h"
 #include "render/light.h"
 #include "render/lobes.h"
 #include "render/medium.h"
+#include "render/moments.h"
 #include "render/textured_material.h"
 #include "scene/scene.h"
 
@@ -34,7 +36,9 @@ struct World {
     std::vector<Lobes> blurred_lobes;             // the same for light that diffuse surfaces scattered before; empty: no other
     std::vector<Light> lights;
     Environment environment;
-    CameraRays camera;
+    CameraRays camera;                            // a pinhole, when the shutter opens: then all else is where it is said to be, too
+    std::optional<Lens> lens;                     // through which the levels that sample look; none: they look through the pinhole, too
+    std::unique_ptr<const Moments> moments;       // if the lens sees objects move
     std::unique_ptr<accel::Accelerator> accelerator;
     bool filters_light = false;  // some instance is not opaque
     bool absorbs = false;        // some instance is a medium with an attenuation

@@ -81,6 +81,15 @@ const FieldTable<Camera>& Camera::fields() {
         field(&Camera::height, {"height", FieldType::number, "m", 0, unbounded, "Vertical extent of an orthographic view"}),
         field(&Camera::pixel_aspect, {"pixel_aspect", FieldType::number, "", 0.01, 100, "Width of a pixel over its height"}),
         field(&Camera::near, {"near", FieldType::number, "m", 0, unbounded, "Nothing nearer is seen"}),
+        field(&Camera::aperture, {"aperture", FieldType::number, "m", 0, unbounded, "Diameter of the lens (focal length over f-number); 0: a pinhole, all is sharp. Used by soft and indirect"}),
+        field(&Camera::focus_distance, {"focus_distance", FieldType::number, "m", 0, unbounded, "Distance of what is sharp, along the view direction; 0: that of the target"}),
+        field(&Camera::blades, {"blades", FieldType::integer, "", 0, 64, "Corners of the lens's opening, 3 or more; 0: it is round"}),
+        field(&Camera::blade_rotation, {"blade_rotation", FieldType::angle, "deg", -unbounded, unbounded, "Turns the opening, counter-clockwise in the picture"}),
+        field(&Camera::shutter_open, {"shutter_open", FieldType::number, "", 0, 1, "When the shutter opens, as a share of the motion's time; what does not sample shows this moment"}),
+        field(&Camera::shutter_close, {"shutter_close", FieldType::number, "", 0, 1, "When it closes"}),
+        field(&Camera::travel, {"travel", FieldType::vector, "m", -unbounded, unbounded, "How far the position moves in the motion's time"}),
+        field(&Camera::target_travel, {"target_travel", FieldType::vector, "m", -unbounded, unbounded, "How far the target does"}),
+        field(&Camera::roll, {"roll", FieldType::angle, "deg", -unbounded, unbounded, "How far the camera turns about its view meanwhile, counter-clockwise"}),
     };
     return table;
 }

@@ -45,6 +45,7 @@ struct Node {
     std::vector<MaterialId> materials;   // by the shape's material slot; empty: the parent's, at the root the default material
     std::vector<NodeId> children;
     bool visible = true;                 // false hides the node and everything below
+    std::optional<math::Affine> motion = {};  // to where it is at the end of the motion's time, in its own space, before `transform`; none: it stands still
 };
 
 // How the file that a scene came from measures; kept to write it back and to show lengths as the user knows them.

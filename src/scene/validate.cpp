@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/camera_check.h"
 #include "scene/field_check.h"
 
 namespace crescente::scene {
@@ -113,18 +114,7 @@ private:
 
     void check_camera(const Camera& camera) {
         check_fields(camera, "/camera");
-        if (camera.projection == Projection::orthographic) positive(camera.height, "/camera/height");
-        const Vec3 view = camera.target - camera.position;
-        if (!is_finite(view) || !is_finite(camera.up)) return;  // told above
-        const double distance = length(view), up = length(camera.up);
-        if (distance == 0) add("/camera/target", "is the camera's position: it looks nowhere");
-        if (up == 0) add("/camera/up", "has no length, so nothing is up");
-        if (!std::isfinite(distance) || !std::isfinite(up)) {
-            add("/camera", "the camera's lengths are too large to compute with");
-        } else if (distance > 0 && up > 0) {
-            constexpr double least_sine = 1e-9;
-            if (!(length(cross(view / distance, camera.up / up)) > least_sine)) add("/camera/up", "is parallel to the view, so nothing is up");
-        }
+        for (auto& [place, reason] : camera_problems(camera)) add("/camera" + place, std::move(reason));
     }
 
     void check_light(const Light& light, const std::string& place) {
@@ -365,16 +355,21 @@ private:
                 add(place_of(i) + "/materials", material.valid() ? "there is no material " + std::to_string(material.value) : "a material is missing");
             }
         }
-        const Affine& a = node.transform;
-        if (!is_finite(a.x) || !is_finite(a.y) || !is_finite(a.z) || !is_finite(a.origin)) {
-            return add(place_of(i) + "/transform", "has numbers that are not finite");
-        }
+        check_transform(node.transform, place_of(i) + "/transform");
+        if (!node.motion) return;
+        const std::size_t before = problems_.size();
+        check_transform(*node.motion, place_of(i) + "/motion");
+        if (problems_.size() == before && node.motion->determinant() < 0) add(place_of(i) + "/motion", "turns the object inside out, which nothing does step by step");
+    }
+
+    void check_transform(const Affine& a, const std::string& place) {
+        if (!is_finite(a.x) || !is_finite(a.y) || !is_finite(a.z) || !is_finite(a.origin)) return add(place, "has numbers that are not finite");
         // The volume of the unit cube's image against that of a box with its edges: how far it is from flat.
         const double edges = length(a.x) * length(a.y) * length(a.z);
         constexpr double flattest = 1e-12;
         if (!std::isfinite(edges) || !is_finite(inverse(a).x) || !is_finite(inverse(a).y) || !is_finite(inverse(a).z) ||
             !is_finite(inverse(a).origin) || !(std::abs(a.determinant()) > flattest * edges)) {
-            add(place_of(i) + "/transform", "cannot be inverted: it flattens what it transforms, or scales beyond all numbers");
+            add(place, "cannot be inverted: it flattens what it transforms, or scales beyond all numbers");
         }
     }
 

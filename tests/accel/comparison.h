@@ -6,6 +6,7 @@
 #include <functional>
 #include <sstream>
 
+#include "accel/joined.h"
 #include "accel/random_rays.h"
 
 namespace crescente::accel::testing {
@@ -17,6 +18,32 @@ inline std::unique_ptr<Accelerator> embree(std::span<const Instance> instances) 
     return made ? std::move(*made) : nullptr;
 }
 
+// Every third instance in an accelerator of its own.
+class InTwoParts final : public Accelerator {
+public:
+    explicit InTwoParts(std::span<const Instance> instances) {
+        std::vector<std::uint32_t> places[2];
+        for (std::uint32_t i = 0; i < instances.size(); ++i) {
+            instances_[i % 3 == 0].push_back(instances[i]);
+            places[i % 3 == 0].push_back(i);
+        }
+        Some parts[2];
+        for (int k = 0; k < 2; ++k) {
+            if (!instances_[k].empty()) parts[k] = {make_kay_kajiya(instances_[k], {}), std::make_shared<const std::vector<std::uint32_t>>(places[k])};
+        }
+        joined_ = make_joined(parts[0], parts[1]);
+    }
+    void nearest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence, TestCounts& counts) const override { joined_->nearest(rays, hits, coherence, counts); }
+    void shadow(std::span<const Ray> rays, std::span<Hit> occluders, std::vector<Crossing>& crossings, Coherence coherence, TestCounts& counts) const override {
+        joined_->shadow(rays, occluders, crossings, coherence, counts);
+    }
+    std::size_t bytes() const override { return joined_->bytes(); }
+
+private:
+    std::vector<Instance> instances_[2];
+    std::unique_ptr<Accelerator> joined_;
+};
+
 inline const std::vector<std::pair<std::string, Factory>>& factories() {
     static const auto kay_kajiya = [](bool octant, bool queue) {
         return [=](std::span<const Instance> instances) { return make_kay_kajiya(instances, {octant, queue}); };
@@ -26,6 +53,7 @@ inline const std::vector<std::pair<std::string, Factory>>& factories() {
         {"kay-kajiya, octants", kay_kajiya(true, false)},
         {"kay-kajiya, queue", kay_kajiya(false, true)},
         {"kay-kajiya, neither", kay_kajiya(false, false)},
+        {"joined", [](std::span<const Instance> instances) { return std::make_unique<InTwoParts>(instances); }},
         {"embree", [](std::span<const Instance> instances) { return embree(instances); }},
     };
     return all;

@@ -141,6 +141,24 @@ TEST_F(Render, OrthographicDiffersFromPerspective) {
     EXPECT_GT(colors(orthographic), 20u);
 }
 
+// Through a lens that is focused on the middle all is blurred but what is as far away; the options are those of the fields.
+TEST_F(Render, Lens) {
+    const auto render = [&](const char* name, std::vector<std::string> options) {
+        std::vector<std::string> words{"render", balls, "-o", path(name), "--size", "48x48", "--level", "soft", "--samples", "4", "-q"};
+        words.insert(words.end(), options.begin(), options.end());
+        const Outcome outcome = crescente(words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return read_png(path(name)).rgb;
+    };
+    const auto sharp = render("sharp.png", {}), focused = render("focused.png", {"--aperture", "0.3", "--focus", "auto"});
+    EXPECT_NE(focused, sharp);
+    EXPECT_NE(render("near.png", {"--aperture", "0.3", "--focus", "0.5"}), focused);
+    EXPECT_EQ(render("fields.png", {"--set", "camera.aperture=0.3", "--set", "camera.blades=5"}), render("options.png", {"--aperture", "0.3", "--blades", "5", "--shutter", "0,1"}));
+    const Outcome nothing = crescente({"render", balls, "-o", path("no.png"), "--focus", "auto", "--camera", "0,0,50,0,0,100"});
+    EXPECT_EQ(nothing.code, 2) << nothing.err;
+    EXPECT_TRUE(contains(nothing.err, "nothing in the middle")) << nothing.err;
+}
+
 TEST_F(Render, SeveralOutputsAtOnce) {
     const Outcome outcome = crescente({"render", balls, "-o", path("a.png"), "-o", path("b.exr"), "--size", "32x32", "--bits", "16"});
     if (outcome.code == 5) GTEST_SKIP() << "this build has no OpenImageIO";

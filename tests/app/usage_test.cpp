@@ -58,9 +58,9 @@ TEST_F(Usage, OutputIsRequired) {
 TEST_F(Usage, EveryProblemIsToldAtOnce) {
     const Outcome outcome = crescente({"render", (scenes / "balls4.nff").string(), "-o", path("a.png"), "--size", "12by13", "--level", "shadow",
                                        "--depth", "-1", "--threshold", "x", "--time", "soon", "--memory", "much", "--camera", "frnt", "--fov",
-                                       "400", "--replay", "1", "--pick", "x,y"});
+                                       "400", "--replay", "1", "--pick", "x,y", "--aperture", "-1", "--focus", "near", "--blades", "2.5", "--shutter", "0.5"});
     EXPECT_EQ(outcome.code, usage);
-    EXPECT_EQ(count(outcome.err, "error: "), 10u) << outcome.err;
+    EXPECT_EQ(count(outcome.err, "error: "), 14u) << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "did you mean 'shadows'?"));
     EXPECT_TRUE(contains(outcome.err, "did you mean 'front'?"));
     EXPECT_TRUE(contains(outcome.err, "from 0 to 250"));

@@ -131,6 +131,19 @@ TEST_F(Edits, MoveReplacesOrFollows) {
     for (const std::uint32_t n : {wheel, node("wheel", 1), node("body")}) EXPECT_EQ(s.nodes[n].transform, math::Affine::translation({0.01, 0.02, 0.03}));
 }
 
+TEST_F(Edits, MoveSetsTheMotion) {
+    const scene::Node& wheel = s.nodes[node("wheel")];
+    apply(R"({"move": {"object": "car/wheel", "motion": {"translate": [2, 0, 0]}}})");
+    EXPECT_EQ(wheel.transform.origin.x, 0.1);
+    EXPECT_EQ(wheel.motion, math::Affine::translation({0.02, 0, 0}));
+    apply(R"({"move": {"object": "car/wheel", "by": {"translate": [5, 0, 0]}}})");
+    EXPECT_EQ(wheel.motion, math::Affine::translation({0.02, 0, 0})) << "goes along";
+    apply(R"({"move": {"object": "car/wheel", "transform": {"translate": [1, 0, 0]}, "motion": null}})");
+    EXPECT_EQ(wheel.transform, math::Affine::translation({0.01, 0, 0}));
+    EXPECT_FALSE(wheel.motion);
+    EXPECT_NE(problems_of(R"({"move": {"object": "car/wheel", "motion": 3}})").find("/move/motion"), std::string::npos);
+}
+
 TEST_F(Edits, AnObjectThatIsNamedTwiceIsMovedOnce) {
     apply(R"({"move": {"object": ["body", "car/body"], "by": {"translate": [1, 0, 0]}}})");
     EXPECT_EQ(origin(node("body")).x, 0.01);

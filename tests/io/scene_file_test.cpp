@@ -89,6 +89,7 @@ public:
             for (int k = number(3); k-- > 0 && !s.materials.empty();) n.materials.push_back({std::uint32_t(number(int(s.materials.size())))});
             if (chance(0.3)) n.transform.origin = vector();
             if (chance(0.3)) n.transform = {vector(), vector(), vector(), vector()};
+            if (chance(0.1)) n.motion = math::Affine{vector(), vector(), vector(), vector()};
             // Edges lead to later nodes only: no cycles, but sharing.
             for (int k = number(4); k-- > 0 && i + 1 < nodes;) n.children.push_back(NodeId{i + 1 + std::uint32_t(number(int(nodes - i - 1)))});
             s.nodes.push_back(n);
@@ -212,9 +213,10 @@ TEST(SceneFile, MeshesAndPolygons) {
 }
 
 TEST(SceneFile, ZUpIsTurnedAsAWhole) {
-    const Scene s = read(R"({"up": "z", "camera": {"position": [1, 2, 3]}, "lights": [{"position": [0, 0, 5], "direction": [0, 0, -1]}, {}],
+    const Scene s = read(R"({"up": "z", "camera": {"position": [1, 2, 3], "travel": [0, 1, 0]}, "lights": [{"position": [0, 0, 5], "direction": [0, 0, -1]}, {}],
                              "objects": [{"shape": {"sphere": {}}, "transform": {"translate": [0, 0, 7]}}]})");
     EXPECT_EQ(s.camera->position, (math::Vec3{1, 3, -2}));
+    EXPECT_EQ(s.camera->travel, (math::Vec3{0, 0, -1}));
     EXPECT_EQ(s.camera->up, Camera{}.up);  // what the file leaves out stays
     EXPECT_EQ(s.lights[0].position, (math::Vec3{0, 5, 0}));
     EXPECT_EQ(s.lights[0].direction, (math::Vec3{0, -1, 0}));

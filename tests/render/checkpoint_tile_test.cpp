@@ -132,7 +132,7 @@ TEST(TileArchive, KeysOfMapsAscendAndAreWithinTheTile) {
     const std::string whole = fresh_seeds().at("tile_amid_edges").substr(1);
     std::vector<std::size_t> lists;  // where each begins with its length
     std::size_t end = 0;
-    for (const std::size_t element : {96, 1, 20, 8, 2, 28, 4, 24, 24, 20, 20, 12}) {  // docs/forest.md
+    for (const std::size_t element : {96, 1, 20, 8, 2, 28, 2, 28, 12, 4, 24, 24, 20, 20, 12}) {  // docs/forest.md
         std::uint64_t length;
         std::memcpy(&length, &whole[end], sizeof length);
         lists.push_back(end);
@@ -141,7 +141,7 @@ TEST(TileArchive, KeysOfMapsAscendAndAreWithinTheTile) {
     struct Map {
         std::size_t list, key, entry;
     };
-    for (const Map& map : {Map{2, 8, 20}, Map{3, 4, 8}, Map{11, 8, 12}}) {
+    for (const Map& map : {Map{2, 8, 20}, Map{3, 4, 8}, Map{14, 8, 12}}) {
         SCOPED_TRACE(map.list);
         std::uint64_t length;
         std::memcpy(&length, &whole[lists[map.list]], sizeof length);
@@ -153,6 +153,36 @@ TEST(TileArchive, KeysOfMapsAscendAndAreWithinTheTile) {
         EXPECT_TRUE(is_refused(first, whole.substr(first + map.entry, map.key))) << "twice";
         EXPECT_TRUE(is_refused(last, std::string(map.key, '\x7f'))) << "beyond the tile";
     }
+}
+
+TEST(TileCheck, PixelsSeenThroughALens) {
+    scene::Scene scene = seed_scene();
+    scene.settings.level = scene::Level::soft, scene.settings.samples = 20;
+    scene.camera->aperture = 0.1;
+    const auto world = world_of(scene);
+    const std::vector<Stage> stages = stages_of(scene.settings);
+    Tile whole = cut_tiles(scene.settings)[0];
+    Growth growth(**world, whole, false);
+    for (const Stage& stage : stages) {
+        ASSERT_TRUE(levels()[static_cast<std::size_t>(stage.level)].advance(growth, stage, Deadline::never()));
+        ++whole.stage, whole.cursor = 0;
+    }
+    const auto problem = [&](auto&& change) {
+        Tile tile = whole;
+        change(tile);
+        return tile_problem(tile, **world, stages);
+    };
+    const std::string do_not_fit = "has samples that do not fit its pixels";
+    EXPECT_EQ(problem([](Tile&) {}), "");
+    EXPECT_EQ(problem([](Tile& t) { t.lens_samples.pop_back(); }), do_not_fit);
+    EXPECT_EQ(problem([](Tile& t) { t.lens_estimates.emplace_back(); }), do_not_fit);
+    EXPECT_EQ(problem([](Tile& t) { t.lens_pixels[0].g = std::numeric_limits<float>::infinity(); }), do_not_fit);
+    EXPECT_EQ(problem([](Tile& t) { t.lens_samples[3] = 0; }), do_not_fit) << "the rounds are said to be complete";
+    EXPECT_EQ(problem([](Tile& t) { t.lens_samples[3] = 300, t.lens_piloted = false; }), do_not_fit) << "more than a pilot that is not";
+    EXPECT_EQ(problem([](Tile& t) { forget_samples(t); }), do_not_fit);
+    EXPECT_EQ(problem([](Tile& t) { forget_samples(t), t.stage -= 4; }), "");
+    scene.camera->aperture = 0;
+    EXPECT_EQ(tile_problem(whole, **world_of(scene), stages), do_not_fit) << "the world is seen through a pinhole";
 }
 
 TEST(TileCheck, ATreeIsATreeAndSeesSomething) {

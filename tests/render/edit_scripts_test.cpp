@@ -56,7 +56,12 @@ public:
             case 11: return settings(s);
             case 12: {
                 scene::Camera c = *s.camera;
-                c.position = c.position + random_.in_cube(0.3);
+                if (random_.chance(0.4)) c.position = c.position + random_.in_cube(0.3);
+                if (random_.chance(0.5)) c.aperture = random_.chance(0.3) ? 0 : random_.uniform(0, 0.5), c.blades = random_.chance(0.5) ? 0 : 6;
+                if (random_.chance(0.3)) c.focus_distance = random_.uniform(1, 9);
+                if (random_.chance(0.3)) c.shutter_close = random_.uniform(0.2, 1), c.shutter_open = random_.chance(0.6) ? 0 : 0.2;
+                if (random_.chance(0.2)) c.travel = random_.in_cube(0.3), c.roll = random_.chance(0.5) ? 0 : 0.2;
+                else if (random_.chance(0.3)) c.travel = {}, c.roll = 0;
                 return scene::SetCamera{c};
             }
             case 13: return scene::AddMaterial{any_value()};
@@ -149,6 +154,11 @@ private:
     }
     Edit moved(const Scene& s) {
         scene::SetNode e = any_node(s);
+        if (random_.chance(0.2)) {
+            if (random_.chance(0.3)) e.value.motion.reset();
+            else e.value.motion = at(random_.in_cube(0.5)) * Affine::rotation(random_.direction(), random_.uniform(0, 2));
+            return e;
+        }
         e.value.transform = at(random_.in_cube(0.5)) * e.value.transform;
         if (random_.chance(0.3)) e.value.transform = e.value.transform * Affine::rotation(random_.direction(), random_.uniform(0, 3));
         return e;

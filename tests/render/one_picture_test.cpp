@@ -55,6 +55,16 @@ void expect_one_picture(const scene::Scene& scene) {
     }
 }
 
+// Nodes of a small scene through a lens, some of them moving.
+TEST(OnePicture, ThroughALens) {
+    scene::Scene scene = instances();
+    scene.settings.width = 40, scene.settings.height = 30, scene.settings.tile = 24;
+    scene.settings.level = scene::Level::soft, scene.settings.samples = 20, scene.settings.noise = 0.2;
+    scene.camera->aperture = 0.3, scene.camera->travel = {0.1, 0, 0};
+    scene.nodes[0].motion = at({0, 0.4, 0});
+    expect_one_picture(scene);
+}
+
 TEST(OnePicture, StillLife) { expect_one_picture(still_life()); }
 TEST(OnePicture, Instances) { expect_one_picture(instances()); }
 TEST(OnePicture, SurfacesInOneAnother) { expect_one_picture(coincident()); }

@@ -72,6 +72,23 @@ TEST(Validate, Camera) {
     EXPECT_PROBLEM("/camera/field_of_view", "179", s.camera->field_of_view = 3.2);
 }
 
+TEST(Validate, LensAndShutter) {
+    EXPECT_PROBLEM("/camera/aperture", "at least 0", s.camera->aperture = -1);
+    EXPECT_PROBLEM("/camera/blades", "3 or more", s.camera->blades = 2);
+    EXPECT_PROBLEM("/camera/blades", "64", s.camera->blades = 65);
+    EXPECT_PROBLEM("/camera/shutter_close", "before it opens", (s.camera->shutter_open = 0.5, s.camera->shutter_close = 0.25));
+    EXPECT_PROBLEM("/camera/travel", "looks nowhere", (s.camera->travel = (s.camera->target - s.camera->position) * 2));  // through the target, halfway
+    EXPECT_PROBLEM("/camera/travel", "nothing is up then", (s.camera->target_travel = s.camera->position - s.camera->target + math::Vec3{0, 5, 0}));
+    EXPECT_TRUE(problems_after([](Scene& s) { s.camera->travel = {1, 2, 3}, s.camera->target_travel = {1, 0, 0}, s.camera->roll = 1; }).empty());
+}
+
+TEST(Validate, Motion) {
+    EXPECT_PROBLEM("/objects/car/motion", "finite", (s.nodes[0].motion = math::Affine::translation({nan_value, 0, 0})));
+    EXPECT_PROBLEM("/objects/car/motion", "inverted", (s.nodes[0].motion = math::Affine::scaling({0, 1, 1})));
+    EXPECT_PROBLEM("/objects/car/motion", "inside out", (s.nodes[0].motion = math::Affine::scaling({-1, 1, 1})));
+    EXPECT_TRUE(problems_after([](Scene& s) { s.nodes[0].motion = math::Affine::rotation({0, 1, 0}, 1); }).empty());
+}
+
 TEST(Validate, Lights) {
     EXPECT_PROBLEM("/lights/0/direction", "points nowhere", (s.lights[0].kind = LightKind::directional, s.lights[0].direction = {}));
     EXPECT_PROBLEM("/lights/0/inner_angle", "60 deg, more than the outer angle of 30 deg",

@@ -65,6 +65,13 @@ Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
     return {};
 }
 
+// The camera may be one that was made here: what is asked of its lens is looked at as a whole.
+Expected<void> look_through_lens(const SceneRequest& request, scene::Scene& scene) {
+    set_lens(request.lens, scene);
+    if (auto problems = scene::validate(scene, request.file); !problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(problems)});
+    return request.lens.focus_on_middle ? focus_on_middle(scene) : Expected<void>{};
+}
+
 }  // namespace
 
 Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& options) {
@@ -89,6 +96,8 @@ Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& op
         return tl::unexpected<Error>({from_options ? ErrorKind::usage : ErrorKind::input, std::move(problems)});
     }
     if (const auto furnished = furnish(request, scene); !furnished) return tl::unexpected<Error>(furnished.error());
+    const bool asked = !request.lens.fields.empty() || request.lens.focus_on_middle;
+    if (const auto seen = asked ? look_through_lens(request, scene) : Expected<void>{}; !seen) return tl::unexpected<Error>(seen.error());
     return loaded;
 }
 

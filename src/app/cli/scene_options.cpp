@@ -124,6 +124,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--camera", options.camera, "px,py,pz,tx,ty,tz in the file's unit, or a view: " + view_names())->option_text("VIEW");
     command.add_option("--fov", options.field_of_view, "Vertical field of view")->option_text("DEGREES");
     command.add_flag("--orthographic", options.orthographic, "Parallel projection");
+    command.add_option("--aperture", options.lens.aperture, "Diameter of the lens in the file's unit, for levels soft and indirect; 0: all is sharp")->option_text("LENGTH");
+    command.add_option("--focus", options.lens.focus, "Distance of what is sharp in the file's unit, or auto: that of what the middle of the picture shows")->option_text("LENGTH|auto");
+    command.add_option("--blades", options.lens.blades, "Corners of the lens's opening; 0: it is round")->option_text("N");
+    command.add_option("--shutter", options.lens.shutter, "When the shutter opens and closes, as shares of the motion's time")->option_text("OPEN,CLOSE");
     command.add_option("--environment", options.environment, "Equirectangular picture that surrounds and lights the scene, such as sky.hdr")->option_text("FILE");
     command.add_option("--sky", options.sky, "Clear sky and sun: azimuth,elevation or 2024-06-21T14:30,latitude,longitude (universal time), and ,turbidity")->option_text("SUN");
     command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
@@ -170,6 +174,7 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
     if (auto view = parse_view(options.camera, options.field_of_view, options.orthographic); reader.keep(view)) {
         reader.request.view = std::move(*view);
     }
+    if (auto lens = parse_lens(options.lens); reader.keep(lens)) reader.request.lens = std::move(*lens);
     if (!reader.problems.empty()) return tl::unexpected<Error>({ErrorKind::usage, std::move(reader.problems)});
     reader.request.file = options.file;
     reader.request.environment = options.environment;

@@ -8,6 +8,7 @@
 
 #include <CLI/App.hpp>
 
+#include "app/cli/lens_options.h"
 #include "app/cli/view.h"
 #include "base/error.h"
 #include "scene/sky.h"
@@ -22,6 +23,7 @@ struct SceneOptions {
     std::optional<std::string> size, memory, supersampling;
     std::optional<std::string> camera, field_of_view, environment, sky;
     bool orthographic = false;
+    LensOptions lens;
     std::vector<std::string> overrides;  // --set path=value
     std::optional<std::string> studio;
     bool no_studio = false, no_cache = false, verbose = false;
@@ -36,6 +38,7 @@ struct SceneRequest {
     std::string file;
     std::vector<std::pair<const Field<scene::Settings>*, FieldValue>> settings;
     View view;
+    LensRequest lens;
     std::optional<std::string> environment;  // a picture's file
     std::optional<scene::Daylight> daylight;
     std::vector<std::string> overrides;

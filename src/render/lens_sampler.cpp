@@ -1,0 +1,213 @@
+#include "render/lens_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/low_discrepancy.h"
+#include "render/estimates.h"
+#include "render/hit_surface.h"
+#include "render/surface_lobes.h"
+#include "scene/motion.h"
+
+namespace crescente::render {
+namespace {
+
+using geometry::Ray;
+
+constexpr std::uint64_t time_classes = 16;  // of pixels that have their samples at the same moments, so that many are traced in the same world
+constexpr int sure_steps = 2;               // after so many, paths of little throughput may end
+
+// What the numbers of a sample are for: each use has a sequence of its own.
+enum class Use : std::uint64_t { place = 1, time = 2, way = 3, point = 4 };
+std::uint64_t key_for(std::uint64_t key, Use use, int depth = 0) { return key ^ mix_bits(static_cast<std::uint64_t>(use) << 16 | static_cast<std::uint64_t>(depth)); }
+
+std::uint64_t key_of(const PixelSample& p) { return mix_bits(static_cast<std::uint64_t>(p.y) << 32 | static_cast<std::uint32_t>(p.x)); }
+
+}  // namespace
+
+LensSampler::LensSampler(const World& world, RayCounts& rays, TestCounts& tests)
+    : world_(world), settings_(world.scene.settings), counts_(rays), tests_(tests), groups_(estimate_groups(world)) {
+    samplers_.resize(world.moments ? static_cast<std::size_t>(world.moments->count()) : 1);
+}
+
+void LensSampler::sample(std::span<const PixelSample> pixels, std::span<SampledLight> light) {
+    light_ = light;
+    std::fill(light_.begin(), light_.end(), SampledLight{});
+    std::vector<std::pair<int, std::uint32_t>> by_moment;
+    for (std::uint32_t i = 0; i < pixels.size(); ++i) by_moment.emplace_back(moment_of(pixels[i]), i);
+    std::sort(by_moment.begin(), by_moment.end());
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t i = 0; i < by_moment.size();) {
+        const int moment = by_moment[i].first;
+        chosen.clear();
+        for (; i < by_moment.size() && by_moment[i].first == moment; ++i) chosen.push_back(by_moment[i].second);
+        const World& world = world_.moments ? world_.moments->at(world_, moment) : world_;
+        start(pixels, chosen, moment);
+        points_.clear(), weights_.clear(), textured_.clear();
+        for (int depth = 0; !paths_.empty(); ++depth) step(world, pixels, depth);
+        point_light_.resize(points_.size() * groups_);
+        auto& sampler = samplers_[static_cast<std::size_t>(moment)];
+        if (!sampler) sampler = std::make_unique<PathSampler>(world, counts_, tests_);
+        sampler->sample(points_, point_light_);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            for (std::size_t g = 0; g < groups_; ++g) {
+                SampledLight& sum = light_[weights_[k].pixel * groups_ + g];
+                sum.diffuse += weights_[k].throughput * point_light_[k * groups_ + g].diffuse;
+                sum.glossy += weights_[k].throughput * point_light_[k * groups_ + g].glossy;
+            }
+        }
+    }
+}
+
+// Of the world's moments, if it has any.
+int LensSampler::moment_of(const PixelSample& pixel) const {
+    if (!world_.moments) return 0;
+    const std::uint64_t key = key_for(mix_bits(key_of(pixel) % time_classes), Use::time);
+    const int count = world_.moments->count();
+    return std::min(static_cast<int>(low_discrepancy(key, pixel.index)[0] * count), count - 1);
+}
+
+void LensSampler::start(std::span<const PixelSample> pixels, std::span<const std::uint32_t> chosen, int moment) {
+    paths_.clear(), rays_.clear();
+    const scene::Camera& camera = world_.lens->camera;
+    const bool moves = camera.moves();
+    const auto seen_at = [&](double share) { return CameraRays(scene::camera_at(camera, world_.lens->time(share)), settings_.width, settings_.height); };
+    CameraRays now = moves && world_.moments ? seen_at(world_.moments->share(moment)) : world_.camera;
+    for (const std::uint32_t i : chosen) {
+        const PixelSample& p = pixels[i];
+        const std::uint64_t key = key_of(p);
+        const auto u = low_discrepancy(key_for(key, Use::place), p.index);
+        double focus = scene::focus_of(camera);
+        if (moves && !world_.moments) now = seen_at(low_discrepancy(key_for(key, Use::time), p.index)[0]);
+        const auto [right, up] = point_of_opening(camera, u[2], u[3]);
+        const double x = p.x + u[0], y = p.y + u[1];
+        rays_.push_back(camera.aperture > 0 ? now.through_lens(x, y, right, up, focus) : now.through(x, y));
+        Path path{};
+        path.pixel = i, path.key = key, path.height = 1 - y / settings_.height;
+        paths_.push_back(path);
+    }
+}
+
+// Traces the rays, collects what they see, and finds how each goes on. depth: bounces before.
+void LensSampler::step(const World& world, std::span<const PixelSample> pixels, int depth) {
+    hits_.resize(rays_.size());
+    accel::TestCounts counts;
+    world.accelerator->nearest(rays_, hits_, accel::Coherence::incoherent, counts);
+    counts_.path += rays_.size();
+    tests_.box_tests += counts.box_tests, tests_.shape_tests += counts.shape_tests;
+    next_.clear(), next_rays_.clear();
+    for (std::size_t block = 0; block < rays_.size(); block += lane_count) {
+        const int count = static_cast<int>(std::min<std::size_t>(lane_count, rays_.size() - block));
+        unsigned found = 0;
+        for (int i = 0; i < count; ++i) found |= hits_[block + i].found() ? 1u << i : 0u;
+        SurfaceLanes at;
+        if (found) at = surfaces_at(world, &rays_[block], &hits_[block], found);
+        for (int i = 0; i < count; ++i) {
+            Path path = paths_[block + i];
+            const Ray& ray = rays_[block + i];
+            const accel::Hit& hit = hits_[block + i];
+            see_lights(world, path, ray, hit.t, depth == 0);
+            if (!hit.found()) {
+                see_surroundings(world, path, ray.direction, depth == 0);
+                continue;
+            }
+            const std::uint32_t material = at.material[i];
+            const TexturedMaterial* textured = world.textured_material(material);
+            const TexturePoint place = textured ? texture_point(world, ray, hit, path.length) : TexturePoint{};
+            const Lobes* lobes = textured ? &textured_.emplace_back(textured->lobes_at(place)) : &world.lobes[material];
+            SamplePoint point;
+            point.position = lane(at.position, i);
+            point.facing = {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0};
+            if (textured && textured->has_relief()) point.facing.shading = textured->normal_at(place, point.facing.shading);
+            point.to_viewer = -ray.direction;
+            point.offset = at.offset[i];
+            point.lobes = lobes;
+            path.length += hit.t;
+            point.path = path.length;
+            point.key = key_for(path.key, Use::point, depth);
+            point.index = pixels[path.pixel].index;
+            point.lamps = true;
+            if (point.facing.inside && !is_black(lobes->attenuation)) path.throughput *= absorbed(*lobes, hit.t);
+            see_emission(world, path, ray, hit, material, *lobes, point.position);
+            points_.push_back(point), weights_.push_back({path.pixel, path.throughput});
+            if (depth < settings_.depth) go_on(*lobes, point, path, point.index, depth);
+        }
+    }
+    std::swap(paths_, next_), std::swap(rays_, next_rays_);
+}
+
+// Lights with extent that the ray passes; the camera does not see all of them.
+void LensSampler::see_lights(const World& world, const Path& path, const Ray& ray, double distance, bool by_camera) {
+    Ray way = ray;
+    way.t_max = distance;
+    met_.clear();
+    world.emitters.lights_on(way, ray.origin, met_);
+    for (const Emitted& light : met_) {
+        if (light.visible || !by_camera) add(path.pixel, light.group, path.throughput * light.radiance);
+    }
+}
+
+// A picture's intensity is a factor of what is seen, the strength of a gradient is not.
+void LensSampler::see_surroundings(const World& world, const Path& path, Vec3 direction, bool by_camera) {
+    const bool backdrop = by_camera && world.environment.backdrop();
+    const auto sky = world.emitters.environment(direction);
+    if (backdrop) add(path.pixel, groups_ - 1, path.throughput * backdrop_radiance(world.environment, path.height));
+    else if (world.environment.source().panorama && sky) add(path.pixel, sky->group, path.throughput * sky->radiance);
+    else if (!world.environment.source().panorama) add(path.pixel, groups_ - 1, path.throughput * environment_radiance(world.environment, direction));
+}
+
+// What the surface sends out of its own. The ambient radiance of classic materials belongs to no group.
+void LensSampler::see_emission(const World& world, const Path& path, const Ray& ray, const accel::Hit& hit, std::uint32_t material, const Lobes& lobes, Vec3 position) {
+    if (is_black(lobes.emission)) return;
+    Rgb rest = lobes.emission;
+    if (const auto emitted = world.emitters.surface(hit.instance, hit.primitive, material, position, ray.origin)) {
+        const Rgb seen = emitted->radiance * emission_factor(lobes, world.lobes[material]);
+        add(path.pixel, emitted->group, path.throughput * seen);
+        rest = rest - seen * scale_of_group(world, emitted->group);
+    }
+    const bool classic = material < world.scene.materials.size() && std::holds_alternative<scene::ClassicMaterial>(world.scene.materials[material].model);
+    if (classic) add(path.pixel, groups_ - 1, path.throughput * Rgb{std::max(rest.r, 0.0f), std::max(rest.g, 0.0f), std::max(rest.b, 0.0f)});
+}
+
+// One of the rays that perfectly smooth lobes send, by their weight.
+void LensSampler::go_on(const Lobes& lobes, const SamplePoint& point, Path path, std::uint32_t index, int depth) {
+    if (!lobes.goes_on()) return;
+    const Smooth smooth = smooth_lobes(lobes);
+    const double cosine = std::clamp(dot(point.facing.shading, point.to_viewer), 0.0, 1.0);
+    const ChildWeights weights = smooth_weights(lobes, cosine, point.facing.inside);
+    const Rgb ways[3] = {smooth.reflects ? weights.reflected : Rgb{}, smooth.refracts ? weights.refracted : Rgb{}, lobes.straight};
+    double sum = 0;
+    for (const Rgb& weight : ways) sum += max_component(path.throughput * weight);
+    if (!(sum > 0)) return;
+    const auto u = low_discrepancy(key_for(path.key, Use::way, depth), index);
+    double survival = 1;
+    if (depth >= sure_steps) {  // Russian roulette (Arvo and Kirk 1990)
+        survival = std::min(1.0, sum);
+        if (u[1] >= survival) return;
+    }
+    double rest = u[0] * sum;
+    int way = 2;
+    while (way > 0 && is_black(ways[way])) --way;
+    for (int k = 0; k < way; ++k) {
+        const double share = max_component(path.throughput * ways[k]);
+        if (rest < share) way = k;
+        else rest -= share;
+    }
+    const double chance = survival * max_component(path.throughput * ways[way]) / sum;
+    path.throughput *= ways[way] * static_cast<float>(1 / chance);
+    if (!is_finite(path.throughput)) return;
+    Ray ray;
+    switch (way) {
+        case 0: ray.direction = mirrored_direction(point.facing, point.to_viewer); break;
+        case 1: ray.direction = refracted_direction(point.facing, point.to_viewer, point.facing.inside ? lobes.ior : 1 / lobes.ior); break;
+        default: ray.direction = -point.to_viewer; break;
+    }
+    ray.origin = point.position + point.facing.geometric * (dot(point.facing.geometric, ray.direction) >= 0 ? point.offset : -point.offset);
+    next_.push_back(path), next_rays_.push_back(ray);
+}
+
+void LensSampler::add(std::uint32_t pixel, std::size_t group, Rgb light) {
+    if (is_finite(light)) light_[pixel * groups_ + group].glossy += light;
+}
+
+}  // namespace crescente::render

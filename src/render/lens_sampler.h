@@ -1,0 +1,66 @@
+// Pixels seen through the lens: rays from points of the lens at moments of the shutter (Cook, Porter and Carpenter 1984, "Distributed Ray Tracing"). Perfectly smooth
+// surfaces lead the ray on, one way at a time, as far as the trees of a pinhole's picture would go; wherever it comes by, the point gets a sample of light as a node of a
+// tree does (render/path_sampler.h).
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "render/path_sampler.h"
+
+namespace crescente::render {
+
+// A pixel of the picture that is to get a sample.
+struct PixelSample {
+    int x = 0, y = 0;
+    std::uint32_t index = 0;  // of the sample
+};
+
+class LensSampler {
+public:
+    // The world has a lens.
+    LensSampler(const World& world, RayCounts& rays, TestCounts& tests);
+
+    // One sample of every pixel: light[i * groups + g] is what pixel i gets by group g of estimate_groups(), as `glossy` or, what surfaces that are met scatter,
+    // `diffuse`. What a pixel gets depends on the pixel and the number of its sample alone.
+    void sample(std::span<const PixelSample> pixels, std::span<SampledLight> light);
+
+private:
+    struct Path {
+        std::uint32_t pixel;
+        std::uint64_t key;     // of its random numbers
+        Rgb throughput{1, 1, 1};
+        double length = 0;     // of the way to where the ray starts, m
+        double height;         // in the picture, 0 bottom to 1 top
+    };
+    struct Weight {  // of a point's light in a pixel
+        std::uint32_t pixel;
+        Rgb throughput;
+    };
+    int moment_of(const PixelSample& pixel) const;
+    void start(std::span<const PixelSample> pixels, std::span<const std::uint32_t> chosen, int moment);
+    void step(const World& world, std::span<const PixelSample> pixels, int depth);
+    void see_lights(const World& world, const Path& path, const geometry::Ray& ray, double distance, bool by_camera);
+    void see_surroundings(const World& world, const Path& path, Vec3 direction, bool by_camera);
+    void see_emission(const World& world, const Path& path, const geometry::Ray& ray, const accel::Hit& hit, std::uint32_t material, const Lobes& lobes, Vec3 position);
+    void go_on(const Lobes& lobes, const SamplePoint& point, Path path, std::uint32_t index, int depth);
+    void add(std::uint32_t pixel, std::size_t group, Rgb light);
+
+    const World& world_;
+    const scene::Settings& settings_;
+    RayCounts& counts_;
+    TestCounts& tests_;
+    const std::size_t groups_;
+    std::span<SampledLight> light_;
+    std::vector<Path> paths_, next_;
+    std::vector<geometry::Ray> rays_, next_rays_;
+    std::vector<accel::Hit> hits_;
+    std::vector<SamplePoint> points_;
+    std::vector<Weight> weights_;   // beside points_
+    std::deque<Lobes> textured_;    // that points_ look at
+    std::vector<SampledLight> point_light_;
+    std::vector<std::unique_ptr<PathSampler>> samplers_;  // by moment, made when asked for
+    std::vector<Emitted> met_;
+};
+
+}  // namespace crescente::render
