@@ -1,7 +1,9 @@
 #include "render/estimates.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "render/forest.h"
 #include "render/world.h"
@@ -16,6 +18,20 @@ struct Spread {
 };
 Spread unpacked(std::uint32_t v) { return {std::bit_cast<float>(v & 0xffff0000), std::bit_cast<float>(v << 16)}; }
 
+constexpr std::uint32_t fewest_to_tell = 4;  // samples
+
+// While the pilot is under way, or with its last sample.
+Spread spread_so_far(const Estimate& estimate, std::uint32_t samples) {
+    const auto count = static_cast<float>(samples);
+    const float mean = luminance(estimate.diffuse + estimate.glossy) / count;
+    const float variance = std::max(0.0f, std::bit_cast<float>(estimate.spread) / count - mean * mean);
+    return {std::max(0.0f, mean), std::sqrt(samples > 1 ? variance * count / (count - 1) : variance)};
+}
+
+Spread spread_of(const Estimate& estimate, std::uint32_t samples) {
+    return samples >= pilot ? unpacked(estimate.spread) : spread_so_far(estimate, samples);
+}
+
 const Estimate* estimates_of(const World& world, const Tile& tile, std::uint32_t node) { return tile.estimates.data() + node * estimate_groups(world); }
 
 }  // namespace
@@ -28,14 +44,26 @@ void add_sample(Estimate& estimate, std::uint32_t index, Rgb diffuse, Rgb glossy
     estimate.diffuse += diffuse, estimate.glossy += glossy;
     if (index >= pilot) return;
     const float sample = luminance(diffuse + glossy);
-    const float squares = std::bit_cast<float>(estimate.spread) + sample * sample;
-    if (index + 1 < pilot) {
-        estimate.spread = std::bit_cast<std::uint32_t>(squares);
-        return;
+    estimate.spread = std::bit_cast<std::uint32_t>(std::bit_cast<float>(estimate.spread) + sample * sample);
+    if (index + 1 < pilot) return;
+    const Spread spread = spread_so_far(estimate, pilot);
+    estimate.spread = packed(spread.mean, spread.deviation);
+}
+
+SampledParts sampled_parts(const World& world, const Tile& tile, std::uint32_t node) {
+    const Estimate* estimates = estimates_of(world, tile, node);
+    const std::uint32_t samples = tile.samples[node];
+    SampledParts parts;
+    float deviation = 0;  // deviations are added as if the groups erred together
+    for (std::size_t g = 0; g < estimate_groups(world); ++g) {
+        const Rgb scale = scale_of_group(world, g);
+        parts.diffuse += estimates[g].diffuse * scale, parts.glossy += estimates[g].glossy * scale;
+        deviation += max_component(scale) * spread_of(estimates[g], samples).deviation;
     }
-    const float mean = luminance(estimate.diffuse + estimate.glossy) / pilot;
-    const float variance = std::max(0.0f, squares / pilot - mean * mean) * pilot / (pilot - 1);
-    estimate.spread = packed(std::max(0.0f, mean), std::sqrt(variance));
+    const float share = 1.0f / static_cast<float>(samples);
+    parts.diffuse *= gray(share), parts.glossy *= gray(share);
+    if (samples >= fewest_to_tell) parts.deviation = deviation;
+    return parts;
 }
 
 Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node) {
@@ -45,12 +73,13 @@ Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node) {
     return sum * (1.0f / static_cast<float>(tile.samples[node]));
 }
 
-std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node) {
+double samples_wanted(const World& world, const Tile& tile, std::uint32_t node) {
+    if (tile.samples[node] < fewest_to_tell) return std::numeric_limits<double>::infinity();
     const scene::Settings& settings = world.scene.settings;
     const Estimate* estimates = estimates_of(world, tile, node);
-    float mean = 0, deviation = 0;  // deviations are added as if the groups erred together
+    float mean = 0, deviation = 0;
     for (std::size_t g = 0; g < estimate_groups(world); ++g) {
-        const Spread spread = unpacked(estimates[g].spread);
+        const Spread spread = spread_of(estimates[g], tile.samples[node]);
         const float scale = max_component(scale_of_group(world, g));
         mean += scale * spread.mean, deviation += scale * spread.deviation;
     }
@@ -58,10 +87,15 @@ std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t
     const double dark = 0.02 * std::exp2(-settings.exposure);  // errors below this, for noise 1, are not seen in dark pixels either
     const double ratio = influence * deviation / (settings.noise * (influence * mean + dark));
     // A pixel is the mean of four corners, each with samples of its own.
-    const double wanted = ratio * ratio / 4;
+    return ratio * ratio / 4;
+}
+
+std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node) {
+    const auto bound = static_cast<std::uint32_t>(world.scene.settings.samples);
+    const double wanted = samples_wanted(world, tile, node);
     std::uint32_t samples = pilot;
-    while (samples < wanted && samples < static_cast<std::uint32_t>(settings.samples)) samples *= 2;
-    return std::min(samples, std::max(pilot, static_cast<std::uint32_t>(settings.samples)));
+    while (samples < wanted && samples < bound) samples *= 2;
+    return std::min(samples, std::max(pilot, bound));
 }
 
 }  // namespace crescente::render

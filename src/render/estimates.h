@@ -32,11 +32,19 @@ Rgb scale_of_group(const World& world, std::size_t group);
 // Adds sample number `index` of a node, counted from 0, to the sums.
 void add_sample(Estimate& estimate, std::uint32_t index, Rgb diffuse, Rgb glossy);
 
-// Radiance to the viewer that the samples of a node say; it must have some.
+// What the samples of a node say, which must have some: radiance to the viewer, by part of the material.
+struct SampledParts {
+    Rgb diffuse, glossy;
+    float deviation = -1;  // of the luminance over single samples; negative: too few to tell
+};
+SampledParts sampled_parts(const World& world, const Tile& tile, std::uint32_t node);
 Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node);
 
-// Samples that a node whose pilot is complete should have in all: a power of two times the pilot's, up to the settings' bound, such that its error times its
-// influence is below the settings' noise, relative to how bright the node is in the pixel.
+// Samples for which the error of a node times its influence is below the settings' noise, relative to how bright the node is in the pixel. Infinite: there are
+// too few to tell.
+double samples_wanted(const World& world, const Tile& tile, std::uint32_t node);
+
+// Samples that a node whose pilot is complete should have in all: what it wants, as a power of two times the pilot's, up to the settings' bound.
 std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node);
 
 }  // namespace crescente::render

@@ -88,14 +88,14 @@ std::array<std::uint32_t, 4> corners_of(const Tile& tile, int x, int y) {
 
 }  // namespace
 
-std::vector<Rgb> develop(const Tile& tile) {
+std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections) {
     if (tile.shows_pixels()) return tile.pixels;
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
     const bool edited = !tile.pixels.empty();  // what is not known anew is still shown as it was
     const std::vector<Quad>& quads = tile.quads_before.empty() ? tile.quads : tile.quads_before;
     const int step = !quads.empty() || (edited && !tile.corners.empty()) ? 1 : whole_grid(tile);
     if (step == 0) return edited ? tile.pixels : std::vector<Rgb>(count);
-    const std::vector<Rgb> radiance = radiances(tile);
+    const std::vector<Rgb> radiance = radiances(tile, corrections);
     if (step > 1) return interpolate(tile, radiance, step);
     std::vector<Rgb> pixels;
     pixels.reserve(count);
@@ -157,9 +157,9 @@ scene::Image blank_image(int width, int height, bool all_layers) {
     return image;
 }
 
-void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image) {
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, std::span<const Rgb> corrections) {
     std::vector<Rgb> developed;
-    if (!tile.shows_pixels()) developed = develop(tile);
+    if (!tile.shows_pixels()) developed = develop(tile, corrections);
     const std::vector<Rgb>& pixels = tile.shows_pixels() ? tile.pixels : developed;
     for (int y = 0; y < tile.height; ++y) {
         float* row = &image.layers[0].values[3 * (static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0)];

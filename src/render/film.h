@@ -10,8 +10,8 @@
 namespace crescente::render {
 
 // The colours of a tile's pixels, row by row, as its trees stand: the mean of a pixel's corners, or of its parts where it was split.
-// Before all corners are there, coarser ones are interpolated. Black for a tile without any.
-std::vector<Rgb> develop(const Tile& tile);
+// Before all corners are there, coarser ones are interpolated. Black for a tile without any. `corrections`: by node, see radiances().
+std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections = {});
 
 // The root that says best what a pixel of the tile shows: at its middle where it was split, else at a corner, or as near to it as there is one by now.
 // no_node: nothing is known yet.
@@ -25,6 +25,6 @@ Tile without_trees(const Tile& tile, std::vector<Rgb> pixels);
 scene::Image blank_image(int width, int height, bool all_layers);
 
 // Writes what the tile knows into every layer of the image. `level` is the level that each finished stage belongs to.
-void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image);
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, std::span<const Rgb> corrections = {});
 
 }  // namespace crescente::render

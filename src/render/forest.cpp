@@ -78,10 +78,11 @@ Rgb influence(const Tile& tile, std::uint32_t node) {
     return product;
 }
 
-std::vector<Rgb> radiances(const Tile& tile) {
+std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections) {
     std::vector<Rgb> result(tile.nodes.size());
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
-        result[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return result[child]; });
+        const Rgb correction = corrections.empty() ? Rgb{} : corrections[i];
+        result[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return result[child]; }, correction);
     }
     return result;
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -146,10 +147,11 @@ void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
     if (child != tile.straight.end() && !tile.nodes[child->second].hidden) visit(child->second, Way::straight);
 }
 
-// Radiance of a node with its children, whose own radiance_of_child(child) gives; of a root as it arrives at the camera, which may be in a medium.
+// Radiance of a node with its children, whose own radiance_of_child(child) gives; of a root as it arrives at the camera, which may be in a medium. `correction`:
+// added to its own.
 template <class RadianceOfChild>
-Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radiance_of_child) {
-    Rgb sum = tile.nodes[node].local;
+Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radiance_of_child, Rgb correction = {}) {
+    Rgb sum = tile.nodes[node].local + correction;
     for_each_child(tile, node, [&](std::uint32_t child, Way) { sum += tile.nodes[child].weight * radiance_of_child(child); });
     return tile.nodes[node].parent == no_node ? sum * tile.nodes[node].weight : sum;
 }
@@ -167,7 +169,8 @@ Tile blank_tile(const Tile& place);
 // The product of the weights from the pixel down to the node, taken in this order.
 Rgb influence(const Tile& tile, std::uint32_t node);
 
-// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera.
-std::vector<Rgb> radiances(const Tile& tile);
+// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera. `corrections`: by node, what is added to its
+// own radiance; empty: nothing.
+std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections = {});
 
 }  // namespace crescente::render

@@ -115,6 +115,7 @@ const FieldTable<Settings>& Settings::fields() {
         field(&S::noise, {"noise", FieldType::number, "", 0.0001, 1, "Error, relative to a pixel's brightness, down to which light is sampled"}),
         field(&S::samples, {"samples", FieldType::integer, "", 1, 32768, "Most samples of a point"}),
         field(&S::caustics, {"caustics", FieldType::boolean, "", 0, 1, "Mirrors and glass throw light; false: glass lets it through straight"}),
+        field(&S::denoise, {"denoise", FieldType::choice, "", 0, 1, "What is shown of light with fewer samples than it wants: its mean with like neighbours, or the noise", {"off", "filter"}}),
         field(&S::tonemap, {"tonemap", FieldType::choice, "", 0, 2, "How radiance becomes display colour", {"automatic", "srgb", "neutral"}}),
         field(&S::exposure, {"exposure", FieldType::number, "stops", -32, 32, "Brightness of the picture"}),
         field(&S::subpixel_shortcut, {"subpixel_shortcut", FieldType::choice, "", 0, 2,

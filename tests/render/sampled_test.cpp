@@ -20,7 +20,7 @@ Scene sampled(Scene scene, scene::Level level, int samples) {
     scene.settings.level = level;
     scene.settings.width = scene.settings.height = 16;
     scene.settings.supersampling = 0;
-    scene.settings.samples = samples, scene.settings.noise = 0.0001;
+    scene.settings.samples = samples, scene.settings.noise = 0.0001, scene.settings.denoise = scene::Denoise::off;
     return scene;
 }
 

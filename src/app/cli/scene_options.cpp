@@ -23,6 +23,7 @@ constexpr SettingOption setting_options[] = {
     {"--depth", "depth", "N", "Most bounces of a ray"},
     {"--noise", "noise", "X", "Levels soft and indirect: error, relative to the brightness, down to which light is sampled"},
     {"--samples", "samples", "N", "Levels soft and indirect: most samples of a point"},
+    {"--denoise", "denoise", "HOW", "Levels soft and indirect: off or filter, for what has fewer samples than it wants"},
     {"--threshold", "threshold", "X", "Rays of less influence on their pixel are not followed, 0 to 1"},
     {"--contrast", "contrast", "X", "Difference of corners that splits a pixel, 0 to 1"},
     {"--accel", "accelerator", "NAME", "How rays find objects: embree, kay-kajiya or linear"},
