@@ -61,13 +61,8 @@ private:
         const Emitters &x = before_.emitters, &y = now_.emitters;
         if (b.level <= scene::Level::edges) return;
         const bool same_number = x.groups() == y.groups();
-        bool same = same_number && change_.same_geometry && !change_.any_reassigned && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
+        bool same = same_number && change_.same_geometry && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
         for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
-        for (std::size_t i = 0; same && i < change_.lobes.size(); ++i) {
-            if (!change_.lobes[i].light) continue;
-            const bool textured = before_.textured_material(static_cast<std::uint32_t>(i)) || now_.textured_material(static_cast<std::uint32_t>(i));
-            same = !textured && same_but_for_emission(before_.lobes[i], now_.lobes[i]);
-        }
         bool same_lights = before_.lights.size() == now_.lights.size();
         same = same && same_lights;
         for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
@@ -75,8 +70,16 @@ private:
             else same = same && change_.lights[l] == LightChange::none;
         }
         change_.resamples = !same;
+        change_.outdates_samples = same && (change_.any_reassigned || !same_lobes_but_for_emission());
         if (!same_lights || a.level <= scene::Level::edges) change_.all_lit = change_.sky = true;  // rays see them
         for (std::size_t g = 0; same_number && g < y.groups(); ++g) change_.all_lit = change_.all_lit || y.scale(g) != x.scale(g);
+    }
+    bool same_lobes_but_for_emission() const {
+        for (std::uint32_t i = 0; i < change_.lobes.size(); ++i) {
+            if (!change_.lobes[i].light) continue;
+            if (before_.textured_material(i) || now_.textured_material(i) || !same_but_for_emission(before_.lobes[i], now_.lobes[i])) return false;
+        }
+        return true;
     }
     static bool same_but_for_emission(const Lobes& before, Lobes now) {
         now.emission = before.emission;

@@ -46,7 +46,15 @@ void show_without_samples(Tile& tile) {
 
 void forget_samples(Tile& tile) {
     show_without_samples(tile);
+    for (Node& node : tile.nodes) node.outdated = false;
     release(tile.samples), release(tile.estimates);
+}
+
+void forget_samples(Tile& tile, std::uint32_t node) {
+    const std::size_t groups = tile.estimates.size() / tile.samples.size();
+    tile.samples[node] = 0;
+    tile.nodes[node].outdated = false;
+    std::fill_n(tile.estimates.begin() + static_cast<std::ptrdiff_t>(node * groups), groups, Estimate{});
 }
 
 std::vector<Tile> cut_tiles(const scene::Settings& settings) {

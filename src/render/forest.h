@@ -43,6 +43,7 @@ struct Node {
     bool spawned : 1 = false;        // its rays are children or in Tile::pending
     bool sampled : 1 = false;        // `local` counts what the samples say, instead of what levels that do not sample make up
     bool samples_reflection : 1 = false, samples_refraction : 1 = false;  // then these rays stand for rough lobes, and are no part of the picture
+    bool outdated : 1 = false;       // its samples are of before an edit: shown until all others have theirs, and never in a finished picture
     bool hidden : 1 = false;         // kept, but below the threshold or the depth bound since an edit: no part of the picture
 
     bool left_scene() const { return instance == no_node; }
@@ -159,6 +160,7 @@ Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radia
 // Takes the light of samples out of the nodes, which are to be lit again. What the samples told is kept, or forgotten too.
 void show_without_samples(Tile& tile);
 void forget_samples(Tile& tile);
+void forget_samples(Tile& tile, std::uint32_t node);  // of one
 
 // The tiles of a picture, row by row, for which nothing was done yet.
 std::vector<Tile> cut_tiles(const scene::Settings& settings);

@@ -9,6 +9,9 @@
 namespace crescente::render {
 namespace {
 
+// The last round: what an edit made outdated, and has been shown nevertheless, is sampled anew, a few nodes at a time to the end.
+constexpr double renewal = 0;
+
 std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
     std::vector<Stage> stages;
     int before = 0;
@@ -17,6 +20,7 @@ std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
         stages.push_back({level, double(samples), double(samples - before)});
         before = samples;
     }
+    stages.push_back({level, renewal, 1});
     return stages;
 }
 
@@ -34,8 +38,9 @@ public:
           tile_(growth.tile()),
           world_(growth.world()),
           groups_(estimate_groups(growth.world())),
-          bound_(static_cast<std::uint32_t>(stage.parameter)),
+          renews_(stage.parameter == renewal),
           most_(static_cast<std::uint32_t>(growth.settings().samples)),
+          bound_(renews_ ? most_ : static_cast<std::uint32_t>(stage.parameter)),
           sampler_(growth.world(), growth.tile().rays, growth.tile().tests) {}
 
     bool run(const Deadline& deadline) {
@@ -47,6 +52,7 @@ public:
             for (; end < tile_.nodes.size() && chunk_.size() < chunk_size; ++end) {
                 const auto i = static_cast<std::uint32_t>(end);
                 if (unseen_[i] || tile_.nodes[i].left_scene()) continue;
+                if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
                 forget_too_many(i);
                 if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i)) chunk_.push_back(i);
             }
@@ -80,6 +86,7 @@ private:
     }
 
     std::uint32_t goal(std::uint32_t i) const {
+        if (tile_.nodes[i].outdated) return tile_.samples[i];
         if (bound_ <= pilot) return bound_;
         return tile_.samples[i] < pilot ? pilot : std::min(bound_, samples_needed(world_, tile_, i));
     }
@@ -88,9 +95,7 @@ private:
     void forget_too_many(std::uint32_t i) {
         const std::uint32_t samples = tile_.samples[i];
         const std::uint32_t needed = most_ <= pilot ? most_ : samples >= pilot ? samples_needed(world_, tile_, i) : samples;
-        if (samples <= needed) return;
-        tile_.samples[i] = 0;
-        std::fill_n(tile_.estimates.begin() + static_cast<std::ptrdiff_t>(i * groups_), groups_, Estimate{});
+        if (samples > needed && !tile_.nodes[i].outdated) forget_samples(tile_, i);
     }
 
     // One sample of each after the other, so that neighbours are traced together. Whether there was time for all.
@@ -151,7 +156,8 @@ private:
     Tile& tile_;
     const World& world_;
     const std::size_t groups_;
-    const std::uint32_t bound_, most_;
+    const bool renews_;
+    const std::uint32_t most_, bound_;
     PathSampler sampler_;
     std::vector<std::uint8_t> unseen_;  // by node
     std::vector<std::uint32_t> chunk_, wanting_;

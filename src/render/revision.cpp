@@ -29,6 +29,8 @@ public:
         const std::size_t count = tile_.nodes.size();
         lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
         if (change_.resamples && !tile_.samples.empty()) take_samples_back();
+        outdates_ = change_.outdates_samples && !tile_.samples.empty();
+        touched_ = touched_ || outdates_;
         const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
         constexpr std::size_t few = 32;
         const bool untidy = tile_.forgotten * few > count;
@@ -138,6 +140,9 @@ private:
             if (lobes.light || change_.all_lit) relight(node);
             if (lobes.rays || change_.depth) spawn_again_[i] = spawns_again_ = true;
             if (lobes.bends) bends_[i] = true;
+            if (!outdates_ || i >= tile_.samples.size() || tile_.samples[i] == 0) continue;
+            if (lobes.light) forget_samples(tile_, i);
+            else node.outdated = true;
         }
     }
     void update_sky(Node& node, LatticePoint at) {
@@ -342,7 +347,7 @@ private:
     const bool watched_;
     std::vector<std::uint64_t> place_;  // by node: key of a root's point
     std::vector<std::uint8_t> lost_, spawn_again_, bends_;  // by node
-    bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false;
+    bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false, outdates_ = false;
 };
 
 // The tile without its trees; its picture stays until there is another.
@@ -369,7 +374,7 @@ void light_again(Tile& tile, const World& world) {
 void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched) {
     if (!change.touches_trees()) return;
     if (change.anew || tile.nodes.empty()) return begin_anew(tile);
-    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !(change.resamples && !tile.samples.empty())) return;
+    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !((change.resamples || change.outdates_samples) && !tile.samples.empty())) return;
     Reviser(tile, before, now, change, watched).run();
 }
 

@@ -92,7 +92,7 @@ Progress Session::advance(const Deadline& deadline) {
     const int corners = stages_to_all_roots(s.world->scene.settings);
     if (std::all_of(states.begin(), states.end(), [&](const TileState& state) { return state.shown_stage >= corners; })) release(s.seen);
     s.render_seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    const Progress progress = s.progress(states);
+    Progress progress = s.progress(states);
     if (progress.done && !s.is_finished) s.finished = s.clock;
     s.is_finished = progress.done;
     return progress;
@@ -111,6 +111,7 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     auto undo = scene::apply(std::move(edits), s.world->scene, file);
     if (!undo) return tl::unexpected(undo.error());
 
+    s.is_finished = false;
     EditReport report{std::move(*undo)};
     World& before = *s.world;
     auto now = world_without_accelerator(std::move(before.scene));

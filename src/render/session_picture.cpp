@@ -29,7 +29,12 @@ std::vector<Area> Session::refresh(Frame& frame) const {
     std::vector<bool> which(s.tiles.size());
     std::transform(s.tiles.begin(), s.tiles.end(), which.begin(), [&](const Tile& tile) { return tile.changed > frame.time; });
     // Tiles that were dropped are filtered when the picture is finished, and not before.
-    if (s.denoises()) which = s.is_finished && frame.time < s.finished ? std::vector<bool>(s.tiles.size(), true) : s.with_neighbours(which);
+    if (s.denoises()) {
+        const std::vector<bool> changed = which;
+        which = s.is_finished && frame.time < s.finished ? std::vector<bool>(s.tiles.size(), true) : s.with_neighbours(changed);
+        // Those that have not heard of an edit cannot be filtered, and stay as they are until they have.
+        for (std::size_t i = 0; i < s.tiles.size(); ++i) which[i] = which[i] && (changed[i] || s.is_known(s.tiles[i]));
+    }
     s.show(image, which, false);
     frame.time = s.clock;
     std::vector<Area> areas;
@@ -64,7 +69,6 @@ std::vector<bool> Session::State::with_neighbours(const std::vector<bool>& which
 
 void Session::State::show(scene::Image& image, const std::vector<bool>& which, bool regrow) const {
     const bool filtered = denoises();
-    const auto is_known = [&](const Tile& tile) { return tile.revision == edits && !tile.unsettled; };
     const auto is_dropped = [](const Tile& tile) { return tile.shows_pixels(); };
     const auto is_done = [&](const Tile& tile) { return is_known(tile) && tile.shown_stage() == static_cast<int>(stages.size()); };
     // The filter wants the trees of all tiles; before the picture is finished, dropped ones show what they had.

@@ -40,6 +40,7 @@ bool Session::State::revise(Tile& tile, bool watched) {
         render::revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change, watched);
     }
     if (tile.unsettled || tile.nodes.empty()) ++revised, tile.changed = clock;
+    if (!tile.samples.empty()) tile.changed = clock;  // it is filtered again, with its neighbours
     tile.revision = edits;
     return true;
 }

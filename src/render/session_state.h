@@ -69,6 +69,7 @@ struct Session::State {
     void take_spare(Tile& tile);
     void drop_finished(Tile& tile);
     void show(scene::Image& image, const std::vector<bool>& which, bool regrow) const;  // these tiles, as they are or, where they were dropped, grown anew
+    bool is_known(const Tile& tile) const { return tile.revision == edits && !tile.unsettled; }  // to the trees, what the scene is
     bool denoises() const;                                                                // some tile may show what has too few samples
     std::vector<bool> with_neighbours(const std::vector<bool>& which) const;              // those too by which the filter finds what these show
     std::vector<TileState> tile_states() const;

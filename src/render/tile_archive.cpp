@@ -20,15 +20,16 @@ struct NodeRecord {
     float offset;
     std::uint32_t instance, primitive, material, parent, reflected, refracted;
     Rgb weight, local;
-    std::uint8_t depth, flags;
-    std::uint16_t zero;
+    std::uint8_t depth;
+    std::uint8_t zero;
+    std::uint16_t flags;
 };
 static_assert(sizeof(NodeRecord) == 96);
 
 NodeRecord record_of(const Node& n) {
-    const int flags = n.inside | n.crossed << 1 | n.shadowed << 2 | n.spawned << 3 | n.hidden << 4 | n.sampled << 5 | n.samples_reflection << 6 | n.samples_refraction << 7;
+    const int flags = n.inside | n.crossed << 1 | n.shadowed << 2 | n.spawned << 3 | n.hidden << 4 | n.sampled << 5 | n.samples_reflection << 6 | n.samples_refraction << 7 | n.outdated << 8;
     return {n.position, n.normal, n.geometric_normal, n.offset, n.instance, n.primitive, n.material, n.parent, n.reflected, n.refracted, n.weight, n.local,
-            n.depth, static_cast<std::uint8_t>(flags), 0};
+            n.depth, 0, static_cast<std::uint16_t>(flags)};
 }
 Node node_of(const NodeRecord& r) {
     Node n;
@@ -36,7 +37,7 @@ Node node_of(const NodeRecord& r) {
     n.instance = r.instance, n.primitive = r.primitive, n.material = r.material;
     n.parent = r.parent, n.reflected = r.reflected, n.refracted = r.refracted, n.weight = r.weight, n.local = r.local, n.depth = r.depth;
     n.inside = r.flags & 1, n.crossed = r.flags >> 1 & 1, n.shadowed = r.flags >> 2 & 1, n.spawned = r.flags >> 3 & 1, n.hidden = r.flags >> 4 & 1;
-    n.sampled = r.flags >> 5 & 1, n.samples_reflection = r.flags >> 6 & 1, n.samples_refraction = r.flags >> 7 & 1;
+    n.sampled = r.flags >> 5 & 1, n.samples_reflection = r.flags >> 6 & 1, n.samples_refraction = r.flags >> 7 & 1, n.outdated = r.flags >> 8 & 1;
     return n;
 }
 
@@ -52,7 +53,7 @@ void nodes(Archive& a, std::vector<Node>& v) {
     list(a, v, sizeof(NodeRecord), [&](Node& node) {
         NodeRecord record = record_of(node);
         value(a, record);
-        if (record.zero != 0) a.fail();
+        if (record.zero != 0 || record.flags >> 9 != 0) a.fail();
         node = node_of(record);
     });
 }

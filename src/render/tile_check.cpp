@@ -138,7 +138,7 @@ private:
         const auto sums_hold = [](const Estimate& e) { return math::is_finite(e.diffuse) && math::is_finite(e.glossy); };
         if (!std::all_of(tile_.estimates.begin(), tile_.estimates.end(), sums_hold)) return false;
         for (std::size_t i = 0; i < tile_.nodes.size(); ++i) {
-            if (tile_.nodes[i].sampled && (i >= tile_.samples.size() || tile_.samples[i] == 0)) return false;
+            if ((tile_.nodes[i].sampled || tile_.nodes[i].outdated) && (i >= tile_.samples.size() || tile_.samples[i] == 0)) return false;
         }
         return true;
     }

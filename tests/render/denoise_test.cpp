@@ -95,6 +95,28 @@ TEST(Denoise, Frames) {
     }
 }
 
+// After an edit of one object's material all others are shown as they were until it is done: the picture is nearly the final one long before all is sampled again.
+TEST(Outdated, PictureIsNearlyThereEarly) {
+    Scene scene = room(64);
+    scene.settings.denoise = Denoise::off, scene.settings.order = scene::Order::even;
+    Session session = finished(scene);
+    const std::uint64_t whole = session.stats().rays.path;
+    std::get<PhysicalMaterial>(scene.materials[2].model).base_color = {0.3f, 0.6f, 0.9f};
+    ASSERT_TRUE(session.edit({scene::SetMaterial{{2}, scene.materials[2]}}));
+    const scene::Image fresh = picture_of(scene);
+    while (true) {
+        const bool done = session.advance(Deadline::in(std::chrono::milliseconds(2))).done;
+        const double asked = double(session.stats().rays.path - whole) / double(whole);
+        if (error(session.picture(), fresh) < 0.02 || done) {
+            EXPECT_LT(asked, 0.25);
+            break;
+        }
+    }
+    session.advance(Deadline::never());
+    EXPECT_TRUE(same_picture(fresh, session.picture()));
+    EXPECT_GT(session.stats().rays.path - whole, whole / 2) << "in the end all is sampled anew";
+}
+
 // Light on the grid: noise of the given deviation about what `truth` says, all of one surface but where `surface` says otherwise.
 GuidedGrid noisy_grid(int size, float deviation, const std::function<float(int, int)>& truth, const std::function<std::uint32_t(int, int)>& surface) {
     GuidedGrid grid{size, size, {}, {}};
