@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "render/bsdf.h"
+
 namespace crescente::render {
 namespace {
 
@@ -63,6 +65,8 @@ private:
         const bool same_number = x.groups() == y.groups();
         bool same = same_number && change_.same_geometry && !change_.any_reassigned && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
         for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
+        // What disperses has its view of what surrounds the scene among its samples.
+        if (std::any_of(now_.lobes.begin(), now_.lobes.end(), disperses)) same = same && before_.environment == now_.environment;
         for (std::size_t i = 0; same && i < change_.lobes.size(); ++i) {
             if (!change_.lobes[i].light) continue;
             const bool textured = before_.textured_material(static_cast<std::uint32_t>(i)) || now_.textured_material(static_cast<std::uint32_t>(i));
@@ -79,7 +83,7 @@ private:
         for (std::size_t g = 0; same_number && g < y.groups(); ++g) change_.all_lit = change_.all_lit || y.scale(g) != x.scale(g);
     }
     static bool same_but_for_emission(const Lobes& before, Lobes now) {
-        now.emission = before.emission;
+        now.emission = before.emission, now.shining = before.shining;
         return before == now;
     }
 
