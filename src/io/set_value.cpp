@@ -73,9 +73,9 @@ private:
     }
     bool set_in(scene::Material& material) {
         if (path_.field == library_word().name) {
-            const auto found = read_library_material(value_, place_, problems_);
-            if (found) material.model = *found;
-            return found.has_value();
+            const scene::LibraryMaterial* found = read_library_material(value_, place_, problems_);
+            if (found) material.model = found->material, material.textures = found->textures;
+            return found != nullptr;
         }
         return std::visit([&](auto& model) { return set_field(model); }, material.model);
     }

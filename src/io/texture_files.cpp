@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
+#include <set>
 
 #include "base/byte_archive.h"
 #include "base/checksum.h"
@@ -51,8 +53,14 @@ bool is_whole(const Pixels& p) {
     return pixels <= most_pixels && p.samples.size() == pixels * static_cast<std::uint64_t>(p.channels) * bytes;
 }
 
-// Decodes some pictures in one process. What one of them does to it is told of that one; those after it are decoded in another.
-void decode_all(std::span<const std::string> encoded, std::span<Decoded> results) {
+// Decodes some pictures in one process, and hands each on by its index and in their order, so that only a bunch of them is in memory at a time. What one of them does to it is told of that
+// one; those after it are decoded in another.
+void decode_all(std::span<const std::string> encoded, std::size_t index, const std::function<void(std::size_t, Decoded)>& take) {
+    const auto failed = [](std::string why) {
+        Decoded none;
+        none.error = std::move(why);
+        return none;
+    };
     std::size_t first = 0;
     while (first < encoded.size()) {
         std::size_t begun = first;
@@ -77,22 +85,23 @@ void decode_all(std::span<const std::string> encoded, std::span<Decoded> results
             // What was decoded before it is lost with the process, and decoded again.
             const std::size_t culprit = std::max(begun, first + 1) - 1;
             if (answer.error() == IsolationFailure::unavailable) {
-                for (std::size_t i = first; i < encoded.size(); ++i) results[i].error = "no process could be made to decode it";
+                for (std::size_t i = first; i < encoded.size(); ++i) take(index + i, failed("no process could be made to decode it"));
                 return;
             }
-            decode_all(encoded.subspan(first, culprit - first), results.subspan(first, culprit - first));
-            results[culprit].error = answer.error() == IsolationFailure::too_long ? "is damaged: decoding it did not come to an end" : "is damaged: OpenImageIO failed on it";
+            decode_all(encoded.subspan(first, culprit - first), index + first, take);
+            take(index + culprit, failed(answer.error() == IsolationFailure::too_long ? "is damaged: decoding it did not come to an end" : "is damaged: OpenImageIO failed on it"));
             first = culprit + 1;
             continue;
         }
         ByteReader reader{*answer};
         const std::size_t before = first;
         while (reader.whole && !reader.bytes.empty() && first < encoded.size()) {
-            Decoded& one = results[first++];
+            Decoded one;
             decoded(reader, one);
             if (!reader.whole || (one.error.empty() && !is_whole(one.pixels))) one.error = "could not be decoded: the answer is not whole";
+            take(index + first++, std::move(one));
         }
-        if (first == before) results[first++].error = "could not be decoded: there was no answer";
+        if (first == before) take(index + first++, failed("could not be decoded: there was no answer"));
     }
 }
 
@@ -169,63 +178,68 @@ Expected<Problems> load_textures(std::span<scene::Material> materials, const std
         return warnings;
     }
     std::size_t used = 0;
+    std::set<const TextureImage*> there;  // each once, however many textures show it
     for (const scene::Material& material : materials) {
-        for (const scene::TextureBinding& binding : material.textures) used += binding.texture.image ? binding.texture.image->bytes() : 0;
+        for (const scene::TextureBinding& binding : material.textures) {
+            if (binding.texture.image && there.insert(binding.texture.image.get()).second) used += binding.texture.image->bytes();
+        }
     }
     const auto place_of = [&](const scene::ImageSource& source) {
         return source.file.empty() ? std::pair{scene_file, source.place} : std::pair{source.file, std::string{}};
     };
-    constexpr std::size_t at_once = 16;  // so that not all encoded files are in memory at a time
-    for (std::size_t first = 0; first < wanted.size(); first += at_once) {
-        const std::size_t count = std::min(at_once, wanted.size() - first);
+    const auto place_picture = [&](const Wanted& one, Decoded result) {
+        const scene::ImageSource& source = one.image->source();
+        const auto [file, place] = place_of(source);
+        Pixels pixels = std::move(result.pixels);
+        if (!result.error.empty()) {
+            Problem problem{file, place, "the picture of a texture " + result.error, {}};
+            if (!source.file.empty() && !source.place.empty()) problem.hint = "named in " + scene_file + " at " + source.place;
+            if (!options.pattern) {
+                problems.push_back(std::move(problem));
+                return;
+            }
+            problem.reason += ": a pattern stands in";
+            warnings.push_back(std::move(problem));
+            pixels = missing_pattern();
+        }
+        if (const std::size_t wrong = make_finite(pixels)) {
+            warnings.push_back({file, place, std::to_string(wrong) + " samples of the picture of a texture are no finite numbers: 0 is taken", {}});
+        }
+        int coarser = 0;
+        const auto bytes_when = [&](int halved) { return pyramid_bytes(std::max(1, pixels.width >> halved), std::max(1, pixels.height >> halved), pixels.channels, pixels.type) * (halved > 0 ? 2 : 1); };
+        while (used + bytes_when(coarser) > options.memory && (pixels.width >> coarser > 1 || pixels.height >> coarser > 1)) ++coarser;
+        if (coarser > 0) {
+            warnings.push_back({file, place, "the picture of a texture is shown at 1/" + std::to_string(1 << coarser) + " of its size: all pictures together may take " +
+                                                 std::to_string(options.memory >> 20) + " MB", {}});
+        }
+        auto image = std::make_shared<const TextureImage>(scene::ImageSource{source}, std::move(pixels), one.srgb, coarser);
+        used += image->bytes();
+        for (ImagePointer* shown : one.shown_by) *shown = image;
+    };
+
+    // Encoded pictures too are in memory a few at a time.
+    constexpr std::size_t at_once = 16, encoded_bytes = std::size_t{1} << 28;
+    for (std::size_t first = 0; first < wanted.size();) {
         std::vector<std::string> encoded;
         std::vector<std::size_t> which;
-        std::vector<Decoded> results(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const scene::ImageSource& source = wanted[first + i].image->source();
+        std::size_t next = first, bytes_read = 0;
+        for (; next < wanted.size() && next - first < at_once && bytes_read < encoded_bytes; ++next) {
+            const scene::ImageSource& source = wanted[next].image->source();
+            Decoded unread;
             if (source.file.empty()) {
                 encoded.push_back(source.bytes);
             } else if (auto bytes = read_whole_file(source.file)) {
                 encoded.push_back(std::move(*bytes));
             } else {
-                results[i].error = bytes.error().problems.front().reason;
+                unread.error = bytes.error().problems.front().reason;
+                place_picture(wanted[next], std::move(unread));
                 continue;
             }
-            which.push_back(i);
+            which.push_back(next);
+            bytes_read += encoded.back().size();
         }
-        std::vector<Decoded> answers(which.size());
-        decode_all(encoded, answers);
-        for (std::size_t k = 0; k < which.size(); ++k) results[which[k]] = std::move(answers[k]);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Wanted& one = wanted[first + i];
-            const scene::ImageSource& source = one.image->source();
-            const auto [file, place] = place_of(source);
-            Pixels pixels = std::move(results[i].pixels);
-            if (!results[i].error.empty()) {
-                Problem problem{file, place, "the picture of a texture " + results[i].error, {}};
-                if (!source.file.empty() && !source.place.empty()) problem.hint = "named in " + scene_file + " at " + source.place;
-                if (!options.pattern) {
-                    problems.push_back(std::move(problem));
-                    continue;
-                }
-                problem.reason += ": a pattern stands in";
-                warnings.push_back(std::move(problem));
-                pixels = missing_pattern();
-            }
-            if (const std::size_t wrong = make_finite(pixels)) {
-                warnings.push_back({file, place, std::to_string(wrong) + " samples of the picture of a texture are no finite numbers: 0 is taken", {}});
-            }
-            int coarser = 0;
-            const auto bytes_when = [&](int halved) { return pyramid_bytes(std::max(1, pixels.width >> halved), std::max(1, pixels.height >> halved), pixels.channels, pixels.type) * (halved > 0 ? 2 : 1); };
-            while (used + bytes_when(coarser) > options.memory && (pixels.width >> coarser > 1 || pixels.height >> coarser > 1)) ++coarser;
-            if (coarser > 0) {
-                warnings.push_back({file, place, "the picture of a texture is shown at 1/" + std::to_string(1 << coarser) + " of its size: all pictures together may take " +
-                                                     std::to_string(options.memory >> 20) + " MB", {}});
-            }
-            auto image = std::make_shared<const TextureImage>(scene::ImageSource{source}, std::move(pixels), one.srgb, coarser);
-            used += image->bytes();
-            for (ImagePointer* shown : one.shown_by) *shown = image;
-        }
+        decode_all(encoded, 0, [&](std::size_t i, Decoded one) { place_picture(wanted[which[i]], std::move(one)); });
+        first = next;
     }
     if (!problems.empty()) return tl::unexpected(Error{ErrorKind::input, std::move(problems)});
     return warnings;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "render/bsdf.h"
+
 namespace crescente::render {
 namespace {
 
@@ -63,6 +65,8 @@ private:
         const bool same_number = x.groups() == y.groups();
         bool same = same_number && change_.same_geometry && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
         for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
+        // What disperses has its view of what surrounds the scene among its samples.
+        if (std::any_of(now_.lobes.begin(), now_.lobes.end(), disperses)) same = same && before_.environment == now_.environment;
         bool same_lights = before_.lights.size() == now_.lights.size();
         same = same && same_lights;
         for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
@@ -82,7 +86,7 @@ private:
         return true;
     }
     static bool same_but_for_emission(const Lobes& before, Lobes now) {
-        now.emission = before.emission;
+        now.emission = before.emission, now.shining = before.shining;
         return before == now;
     }
 

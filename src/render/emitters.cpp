@@ -26,12 +26,7 @@ LightBounds bounds_of(const LuminousShape& shape, double power) {
 }
 
 // What a material sends out of its own. The ambient radiance of classic materials stands for light between surfaces, and lights nothing.
-Rgb emission_of(const World& world, std::uint32_t material) {
-    if (material < world.scene.materials.size()) {
-        if (const auto* classic = std::get_if<scene::ClassicMaterial>(&world.scene.materials[material].model)) return classic->emission;
-    }
-    return world.lobes[material].emission;
-}
+Rgb emission_of(const World& world, std::uint32_t material) { return world.lobes[material].shining; }
 
 LuminousShape parallelogram(Vec3 corner, Vec3 a, Vec3 b, bool two_sided) {
     const bool upright = std::abs(dot(a, b)) <= 1e-12 * length(a) * length(b);

@@ -258,7 +258,7 @@ void Growth::add_light(PointLanes& p, std::size_t l) const {
     if (!p.lit) return;
     Lanes radiance[3]{};
     if (const unsigned physical = p.lit & p.physical) {
-        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.view.layer_f0, p.cosine);
+        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.view.layer_f0, p.view.layer_f90, p.cosine);
         reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer, light.makes_highlights(), radiance);
     }
     for (unsigned rest = p.lit & ~p.physical; rest; rest &= rest - 1) {
@@ -372,10 +372,11 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) {
             node.spawned = true;
             const Lobes& lobes = *p.lobes[i];
             if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
-            ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
+            const double over = coat_cosine(lobes, lane(p.viewer, i), cosines[i]);
+            ChildWeights weights = child_weights(lobes, cosines[i], over, node.inside);
             if (settings_.level > scene::Level::edges) {  // rough lobes will be sampled: the rays of smooth ones carry these alone
                 const Smooth smooth = smooth_lobes(lobes);
-                const ChildWeights alone = smooth_weights(lobes, cosines[i], node.inside);
+                const ChildWeights alone = smooth_weights(lobes, cosines[i], over, node.inside);
                 if (smooth.reflects) weights.reflected = alone.reflected;
                 if (smooth.refracts) weights.refracted = alone.refracted;
             }
@@ -395,6 +396,7 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
     for (std::size_t block = 0; block < points_.size(); ++block) {
         const PointLanes& p = points_[block];
         const Lanes cosine = dot(p.normal, p.viewer);
+        Vec3Lanes mirrors = p.normal;
         Lanes eta = Lanes{} + 1.0;  // index in front over index behind
         unsigned refracted = 0, straight = 0;
         for (int i = 0; i < p.count; ++i) {
@@ -407,8 +409,12 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
                 eta[i] = node.inside ? ior : 1 / ior;
             }
             if (from.way == Way::straight) straight |= 1u << i;
+            if (from.way == Way::reflected && has_own_coat(world_, node.material)) {
+                Lobes scratch;
+                set_lane(mirrors, i, mirror_normal(lobes_of(world_, tile_, from.parent, scratch), lane(p.normal, i)));
+            }
         }
-        Vec3Lanes direction = normalize(p.normal * (2.0 * cosine) - p.viewer);
+        Vec3Lanes direction = normalize(mirrors * (2.0 * dot(mirrors, p.viewer)) - p.viewer);
         // Interpolated normals can send a reflection into the surface: lift it to just above.
         const Lanes above = dot(direction, p.geometric);
         if (bits_of(above < 1e-4)) direction = select(above < 1e-4, normalize(direction + p.geometric * (1e-4 - above)), direction);

@@ -131,7 +131,7 @@ private:
         const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
         SamplePoint point;
         point.position = node.position;
-        point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), {}, node.inside};
+        point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), node.inside};
         point.to_viewer = normalize(viewer - node.position);
         point.offset = node.offset;
         point.lobes = &lobes_of(world_, tile_, i, scratch);

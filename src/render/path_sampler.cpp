@@ -21,11 +21,17 @@ constexpr double least_share = 1e-6;       // that is divided by
 constexpr int sure_steps = 2;              // after so many, paths of little throughput may end
 
 // What the numbers of a sample are for: each use has a sequence of its own.
-enum class Use : std::uint64_t { scatter, light, lamp, first_light };
+enum class Use : std::uint64_t { scatter, light, lamp, first_light, band };
 std::array<double, 4> numbers(const SamplePoint& point, int depth, Use use, std::size_t which = 0) {
     const std::uint64_t place = static_cast<std::uint64_t>(depth) << 32 | static_cast<std::uint64_t>(use) << 24 | which;
     return low_discrepancy(point.key ^ mix_bits(place + 1), point.index);
 }
+
+// Light of one of three bands of the spectrum, for all of it.
+Rgb only_band(int band) { return {band == 0 ? 3.0f : 0, band == 1 ? 3.0f : 0, band == 2 ? 3.0f : 0}; }
+
+// Which is followed from where a path meets what disperses: all light, and with it its reflection and what lamps send there.
+int chosen_band(const SamplePoint& point, int depth) { return std::min(2, static_cast<int>(3 * numbers(point, depth, Use::band)[0])); }
 
 // Power heuristic with exponent 2: the share of a direction drawn with density a that could also have been drawn with density b.
 double power_share(double a, double b) { return a <= 0 ? 0 : 1 / (1 + (b / a) * (b / a)); }
@@ -74,26 +80,33 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::size_t k = 0; k < sampled; ++k) {
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const SamplePoint& p = points[i];
-            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path};
+            const bool splits = disperses(*p.lobes);
+            if (splits) banded_ = in_band(*p.lobes, chosen_band(p, 0));
+            const Rgb colors = splits ? only_band(chosen_band(p, 0)) : Rgb{1, 1, 1};
+            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, splits ? &banded_ : p.lobes, p.path};
             const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
             const auto u = numbers(p, 0, Use::first_light, group);
             if (const auto arrived = sample_group(vertex, group, chance, false, false, {u[0], u[1], u[2]})) {
-                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, p.path, arrived->share,
-                                 arrived->value.glossy * arrived->light});
+                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light * colors, {}, p.path, arrived->share,
+                                 arrived->value.glossy * arrived->light * colors});
             }
         }
     }
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
         const auto u = numbers(p, 0, Use::scatter);
-        const auto s = sample_scatter(*p.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
+        const bool splits = disperses(*p.lobes);
+        if (splits) banded_ = in_band(*p.lobes, chosen_band(p, 0));
+        const auto s = sample_scatter(splits ? banded_ : *p.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
         if (!s) continue;
         Path path{};
         path.point = i;
         path.diffuse = over(s->value.diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
         path.throughput = path.throughput_on = {1, 1, 1};
         path.from = p.position, path.length = p.path;
-        path.pdf = s->value.pdf;
+        if (splits) path.band = static_cast<std::uint8_t>(chosen_band(p, 0) + 1), path.diffuse *= only_band(path.band - 1), path.glossy *= only_band(path.band - 1);
+        path.pdf = s->delta ? 0 : s->value.pdf;
+        path.sharp = path.clear = s->delta;
         path.chance = chance;
         path.scattered = s->part == Part::diffuse;
         paths_.push_back(path);
@@ -127,16 +140,16 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             if (textured && blurs) textured = world_.blurred_textured[material].get();
             const Lobes& plain = (blurs ? world_.blurred_lobes : world_.lobes)[material];
             const TexturePoint place = textured ? texture_point(world_, ray, hit, path.length) : TexturePoint{};
-            const Lobes own = textured ? textured->lobes_at(place) : Lobes{};
-            const Lobes& lobes = textured ? own : plain;
-            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t};
+            if (textured) own_ = textured->lobes_at(place);
+            const Lobes& lobes = textured ? own_ : plain;
+            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t};
             if (textured && textured->has_relief()) vertex.facing.shading = textured->normal_at(place, vertex.facing.shading);
             if (vertex.facing.inside && !is_black(lobes.attenuation)) {
                 const Rgb rest = absorbed(lobes, hit.t);
                 path.throughput *= rest, path.throughput_on *= rest;
             }
             if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, material, vertex.position, path.from)) {
-                take(path, *emitted, textured ? ratio(lobes.emission, plain.emission) : Rgb{1, 1, 1});
+                take(path, *emitted, textured ? ratio(lobes.shining, plain.shining) : Rgb{1, 1, 1});
             }
             if (!goes_on_ && path.depth == 0) path.diffuse = {};
             path.throughput = path.throughput_on;
@@ -154,6 +167,7 @@ void PathSampler::meet_lights(const Path& path, const Ray& ray, const Hit& hit) 
     world_.emitters.lights_on(way, path.from, met_);
     for (const Emitted& emitted : met_) take(path, emitted);
     if (hit.found()) return;
+    if (path.clear) return add(path.point, groups_, {}, path.glossy * path.throughput * environment_radiance(world_.environment, ray.direction));
     if (const auto sky = world_.emitters.environment(ray.direction)) take(path, *sky);
 }
 
@@ -168,8 +182,13 @@ void PathSampler::take(const Path& path, const Emitted& emitted, Rgb texture) {
 }
 
 // Light at a vertex of a path, and its next ray.
-void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& point) {
+void PathSampler::go_on(Vertex vertex, Path path, const SamplePoint& point) {
     const int depth = ++path.depth;
+    if (disperses(*vertex.lobes)) {
+        if (path.band == 0) path.band = static_cast<std::uint8_t>(chosen_band(point, depth) + 1), path.throughput *= only_band(path.band - 1);
+        banded_ = in_band(*vertex.lobes, path.band - 1);
+        vertex.lobes = &banded_;
+    }
     const bool last = depth >= settings_.depth;
     const auto scatter_numbers = numbers(point, depth, Use::scatter);
     if (groups_ > 0) {
@@ -203,6 +222,7 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
         path.from = vertex.position, path.length = vertex.path;
         path.pdf = s->delta ? 0 : s->value.pdf;
         path.chance = groups_ == 0 ? 0 : 1.0 / static_cast<double>(groups_);
+        path.clear = path.clear && s->delta;
         path.sharp = s->delta || (s->part == Part::glossy && bends(*vertex.lobes));  // what comes so through glass, shadow rays have told
         path.scattered_later = path.scattered_later || s->part == Part::diffuse;
         path.scattered = path.scattered || path.scattered_later;

@@ -51,8 +51,10 @@ private:
         double pdf;           // of the ray's direction; 0: a smooth lobe's
         double chance;        // that a light was also sampled where the ray starts
         std::uint8_t depth;
+        std::uint8_t band;    // 1 to 3: of the spectrum, once something disperses; 0: all
         bool scattered;       // some lobe on the way was diffuse: what follows is blurred
         bool scattered_later;  // some lobe after the first point's was
+        bool clear;           // smooth lobes alone sent it, from the first point on: around the scene it sees what the rays of nodes see, whatever strength that has as light
         bool sharp;           // a mirror or a body that bends light sent it: unless caustics are asked for, diffuse surfaces do not get lights that it meets
     };
     struct Connection {  // a shadow ray, and what it brings if nothing is in the way
@@ -81,7 +83,7 @@ private:
     void step(std::span<const SamplePoint> points);
     void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);
     void take(const Path& path, const Emitted& emitted, Rgb texture = {1, 1, 1});
-    void go_on(const Vertex& vertex, Path path, const SamplePoint& point);
+    void go_on(Vertex vertex, Path path, const SamplePoint& point);
     std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const;
     std::optional<Arrived> sample_lamp(const Vertex& vertex, double u);
     void queue(const Vertex& vertex, const Arrived& arrived, const Connection& connection);
@@ -97,6 +99,7 @@ private:
     const std::size_t groups_;
     const bool goes_on_;  // diffuse light comes from other surfaces too
     std::span<SampledLight> light_;
+    Lobes own_, banded_;  // of the textured, or the dispersing, material at hand
     std::vector<Path> paths_, next_;
     std::vector<geometry::Ray> rays_, next_rays_, shadow_rays_;
     std::vector<accel::Hit> hits_;

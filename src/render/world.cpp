@@ -32,7 +32,7 @@ void derive(World& world) {
     world.lobes.push_back(compile(scene::Material{}));
     const auto default_material = static_cast<std::uint32_t>(world.lobes.size() - 1);
     for (std::size_t i = 0; i < s.materials.size(); ++i) {
-        if (s.materials[i].textures.empty()) continue;
+        if (!TexturedMaterial::varies(s.materials[i])) continue;
         world.textured.resize(world.lobes.size());
         world.textured[i] = std::make_shared<const TexturedMaterial>(s.materials[i]);
         world.bends_normals = world.bends_normals || world.textured[i]->has_relief();

@@ -66,6 +66,7 @@ private:
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
+            if (const auto* m = std::get_if<PhysicalMaterial>(&scene_.materials[i].model)) check_grain(*m, place);
             for (const TextureBinding& binding : scene_.materials[i].textures) check_texture(scene_.materials[i], binding, place + "/textures/" + escaped(binding.target));
         }
     }
@@ -83,6 +84,11 @@ private:
         for (const auto& f : Owner::fields()) {
             if (const auto wrong = range_problem(f.info, f.get(owner), scene_.unit.metres, scene_.unit.name)) add(place + "/" + f.info.name, *wrong);
         }
+    }
+
+    void check_grain(const PhysicalMaterial& m, const std::string& place) {
+        const double l = length(m.grain_axis);
+        if (is_finite(m.grain_axis) && !(l > 0 && std::isfinite(l))) add(place + "/grain_axis", "has no direction");
     }
 
     void check_texture(const Material& material, const TextureBinding& binding, const std::string& place) {
