@@ -66,8 +66,7 @@ Progress Session::advance(const Deadline& deadline) {
             if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
             tile.going_on = false;
             if (keep) {
-                release(tile.pixels);
-                tile.pixels_stage = -1;
+                forget_picture(tile);
                 return tile.trim();
             }
             s.drop_finished(tile);
@@ -110,7 +109,7 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
 
     EditReport report{std::move(*undo)};
     World& before = *s.world;
-    auto now = world_without_accelerator(std::move(before.scene));
+    auto now = world_without_accelerator(std::move(before.scene), &before);
     Change change = change_between(before, settings, *now, reshaped);
     const accel::Accelerator* accelerator = before.accelerator.get();
     if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings), reshaped); !given) {
@@ -182,7 +181,7 @@ scene::Image Session::picture(bool all_layers) const {
         return std::move(frame.image);
     }
     s.catch_up(Deadline::never());  // layers speak of the scene as it is
-    scene::Image image = blank_image(s.width(), s.height(), true);
+    scene::Image image = blank_image(s.width(), s.height(), true, s.keeps_alpha());
     s.pool.for_each(s.tiles.size(), [&](std::size_t i) {
         const Tile& tile = s.tiles[i];
         expose(tile.shows_pixels() ? s.regrown(tile) : tile, *s.world, s.level_of_stage, image);
@@ -221,7 +220,9 @@ Stats Session::stats() const {
 std::vector<Area> Session::refresh(Frame& frame) const {
     const State& s = *state_;
     scene::Image& image = frame.image;
-    if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1) frame = {blank_image(s.width(), s.height(), false), 0};
+    if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1 || image.layers[0].channels.size() != (s.keeps_alpha() ? 4 : 3)) {
+        frame = {blank_image(s.width(), s.height(), false, s.keeps_alpha()), 0};
+    }
     std::vector<const Tile*> changed;
     std::vector<Area> areas;
     for (const Tile& tile : s.tiles) {

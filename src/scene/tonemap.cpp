@@ -145,4 +145,18 @@ void display_image(std::span<const float> linear, Tonemap tonemap, double exposu
     display_image_as<16>(linear, tonemap, exposure, out);
 }
 
+double automatic_exposure(std::span<const float> linear, std::size_t channels) {
+    constexpr double middle_grey = 0.18, darkest = 1e-4;  // below, a pixel is no more than dark
+    double sum = 0, weights = 0;
+    for (std::size_t i = 0; i + channels <= linear.size(); i += channels) {
+        const float luminance = math::luminance({linear[i], linear[i + 1], linear[i + 2]}), alpha = channels == 4 ? linear[i + 3] : 1;
+        if (!(luminance > 0) || !std::isfinite(luminance) || !(alpha > 0)) continue;
+        sum += alpha * std::log2(std::max(darkest, double(luminance) / alpha));
+        weights += alpha;
+    }
+    if (!(weights > 0)) return 0;
+    const double stops = std::log2(middle_grey) - sum / weights;
+    return std::clamp(std::round(stops * 100) / 100, -32.0, 32.0);
+}
+
 }  // namespace crescente::scene
