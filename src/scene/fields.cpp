@@ -125,7 +125,7 @@ const FieldTable<Settings>& Settings::fields() {
         field(&S::caustics, {"caustics", FieldType::boolean, "", 0, 1, "Mirrors and glass throw light; false: glass lets it through straight"}),
         field(&S::tonemap, {"tonemap", FieldType::choice, "", 0, 2, "How radiance becomes display colour", {"automatic", "srgb", "neutral"}}),
         field(&S::exposure, {"exposure", FieldType::number, "stops", -32, 32, "Brightness of the picture"}),
-        field(&S::auto_exposure, {"auto_exposure", FieldType::boolean, "", 0, 1, "The picture's log-average becomes middle grey; `exposure` is added"}),
+        field(&S::auto_exposure, {"auto_exposure", FieldType::boolean, "", 0, 1, "The picture's log-average becomes middle grey, or less, so that little burns out; `exposure` is added"}),
         field(&S::subpixel_shortcut, {"subpixel_shortcut", FieldType::choice, "", 0, 2,
               "Try a pixel's own objects first for new rays inside it", {"off", "exact", "trust"}}),
         field(&S::accelerator, {"accelerator", FieldType::choice, "", 0, 2, "How rays find objects", {"embree", "kay-kajiya", "linear"}}),

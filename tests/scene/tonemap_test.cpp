@@ -101,5 +101,12 @@ TEST(AutomaticExposure, MakesTheLogAverageMiddleGrey) {
     const std::vector<float> apart{0.18f, 0.18f, 0.18f, 0.5f, 0, 0, 0, 0, infinity, 1, 1, 1};
     EXPECT_DOUBLE_EQ(scene::automatic_exposure(apart, 4), -1);
     EXPECT_EQ(scene::automatic_exposure(std::vector<float>(9, 0.0f), 3), 0);
+    // A tenth of bright pixels before much dark: they are kept from burning out.
+    std::vector<float> dark(3 * 90, 0.01f);
+    dark.resize(3 * 100, 8.0f);
+    EXPECT_DOUBLE_EQ(scene::automatic_exposure(dark, 3), -3);
+    // Fewer may.
+    std::fill_n(dark.begin() + 3 * 90, 3 * 7, 0.01f);
+    EXPECT_GT(scene::automatic_exposure(dark, 3), 2);
     EXPECT_EQ(scene::automatic_exposure({}, 3), 0);
 }

@@ -28,7 +28,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options, bool requir
         ->option_text("FILE")->required(required)->expected(1)->take_all();
     command.add_option("--tonemap", options.tonemap, "Display colours: auto, srgb or neutral (Khronos PBR Neutral)")
         ->option_text("NAME")->check(CLI::IsMember({"auto", "srgb", "neutral"}));
-    command.add_option("--exposure", options.exposure, "Brightness of the picture in stops; auto: its log-average becomes middle grey")->option_text("STOPS|auto")
+    command.add_option("--exposure", options.exposure, "Brightness of the picture in stops; auto: its log-average becomes middle grey, little burns out")->option_text("STOPS|auto")
         ->check(CLI::Range(-32.0, 32.0) | CLI::IsMember({"auto"}));
     command.add_option("--bits", options.bits, "Bits of a channel in PNG and TIFF")->option_text("8|16")->check(CLI::IsMember({8, 16}));
 }
