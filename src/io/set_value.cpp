@@ -43,7 +43,7 @@ public:
         }
         if (path_.what == "environment") {
             if (!draft_.environment) draft_.environment.emplace();
-            if (set_single(*draft_.environment) && path_.field == "image") load_panorama(*draft_.environment, value_, place_, problems_);
+            if (set_single(*draft_.environment) && (path_.field == "image" || path_.field == "sky")) load_panorama(*draft_.environment, value_, place_, problems_);
             return;
         }
         const std::vector<std::string> known{"settings", "camera", "environment", "light", "material", "shape"};

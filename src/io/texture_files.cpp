@@ -7,9 +7,8 @@
 #include <map>
 #include <set>
 
-#include "base/byte_archive.h"
 #include "base/checksum.h"
-#include "io/isolated.h"
+#include "io/decoded_picture.h"
 #include "io/openimageio.h"
 #include "io/text_file.h"
 
@@ -31,78 +30,6 @@ bool shows_color(const scene::Material& material, const scene::TextureBinding& b
     }
     const FieldInfo* field = scene::textured_field(material, binding.target);
     return field && field->type == FieldType::color;
-}
-
-// A picture as it comes from the other process: decoded, or why not.
-struct Decoded {
-    std::string error;
-    Pixels pixels;
-};
-
-template <class Archive>
-void decoded(Archive& a, Decoded& d) {
-    value(a, d.error);
-    value(a, d.pixels.width), value(a, d.pixels.height), value(a, d.pixels.channels), value(a, d.pixels.type);
-    array(a, d.pixels.samples);
-}
-
-bool is_whole(const Pixels& p) {
-    if (p.width < 1 || p.height < 1 || p.channels < 1 || p.channels > 4 || p.type > SampleType::float32) return false;
-    const std::uint64_t pixels = static_cast<std::uint64_t>(p.width) * static_cast<std::uint64_t>(p.height);
-    const std::uint64_t bytes = p.type == SampleType::bits8 ? 1 : p.type == SampleType::bits16 ? 2 : 4;
-    return pixels <= most_pixels && p.samples.size() == pixels * static_cast<std::uint64_t>(p.channels) * bytes;
-}
-
-// Decodes some pictures in one process, and hands each on by its index and in their order, so that only a bunch of them is in memory at a time. What one of them does to it is told of that
-// one; those after it are decoded in another.
-void decode_all(std::span<const std::string> encoded, std::size_t index, const std::function<void(std::size_t, Decoded)>& take) {
-    const auto failed = [](std::string why) {
-        Decoded none;
-        none.error = std::move(why);
-        return none;
-    };
-    std::size_t first = 0;
-    while (first < encoded.size()) {
-        std::size_t begun = first;
-        IsolationLimits limits;
-        limits.memory = std::size_t{12} << 30;  // sixteen bytes for each of the most pixels, several times
-        IsolationWatch watch;
-        watch.progress = [&](double, std::string_view) { ++begun; };
-        constexpr std::size_t bunch_bytes = std::size_t{1} << 28;  // decoded, about, before another process begins
-        const auto answer = run_isolated([&](const TellProgress& tell) {
-            ByteWriter writer;
-            for (std::size_t i = first; i < encoded.size() && (i == first || writer.bytes.size() < bunch_bytes); ++i) {
-                tell(0, "");
-                Decoded one;
-                auto pixels = decode_with_openimageio(encoded[i], most_pixels);
-                if (pixels) one.pixels = std::move(*pixels);
-                else one.error = pixels.error().problems.front().reason;
-                decoded(writer, one);
-            }
-            return std::move(writer.bytes);
-        }, limits, watch);
-        if (!answer) {
-            // What was decoded before it is lost with the process, and decoded again.
-            const std::size_t culprit = std::max(begun, first + 1) - 1;
-            if (answer.error() == IsolationFailure::unavailable) {
-                for (std::size_t i = first; i < encoded.size(); ++i) take(index + i, failed("no process could be made to decode it"));
-                return;
-            }
-            decode_all(encoded.subspan(first, culprit - first), index + first, take);
-            take(index + culprit, failed(answer.error() == IsolationFailure::too_long ? "is damaged: decoding it did not come to an end" : "is damaged: OpenImageIO failed on it"));
-            first = culprit + 1;
-            continue;
-        }
-        ByteReader reader{*answer};
-        const std::size_t before = first;
-        while (reader.whole && !reader.bytes.empty() && first < encoded.size()) {
-            Decoded one;
-            decoded(reader, one);
-            if (!reader.whole || (one.error.empty() && !is_whole(one.pixels))) one.error = "could not be decoded: the answer is not whole";
-            take(index + first++, std::move(one));
-        }
-        if (first == before) take(index + first++, failed("could not be decoded: there was no answer"));
-    }
 }
 
 // Samples that are no numbers become 0; how many.
@@ -187,7 +114,7 @@ Expected<Problems> load_textures(std::span<scene::Material> materials, const std
     const auto place_of = [&](const scene::ImageSource& source) {
         return source.file.empty() ? std::pair{scene_file, source.place} : std::pair{source.file, std::string{}};
     };
-    const auto place_picture = [&](const Wanted& one, Decoded result) {
+    const auto place_picture = [&](const Wanted& one, DecodedPicture result) {
         const scene::ImageSource& source = one.image->source();
         const auto [file, place] = place_of(source);
         Pixels pixels = std::move(result.pixels);
@@ -225,7 +152,7 @@ Expected<Problems> load_textures(std::span<scene::Material> materials, const std
         std::size_t next = first, bytes_read = 0;
         for (; next < wanted.size() && next - first < at_once && bytes_read < encoded_bytes; ++next) {
             const scene::ImageSource& source = wanted[next].image->source();
-            Decoded unread;
+            DecodedPicture unread;
             if (source.file.empty()) {
                 encoded.push_back(source.bytes);
             } else if (auto bytes = read_whole_file(source.file)) {
@@ -238,7 +165,7 @@ Expected<Problems> load_textures(std::span<scene::Material> materials, const std
             which.push_back(next);
             bytes_read += encoded.back().size();
         }
-        decode_all(encoded, 0, [&](std::size_t i, Decoded one) { place_picture(wanted[which[i]], std::move(one)); });
+        decode_pictures(encoded, most_pixels, [&](std::size_t i, DecodedPicture one) { place_picture(wanted[which[i]], std::move(one)); });
         first = next;
     }
     if (!problems.empty()) return tl::unexpected(Error{ErrorKind::input, std::move(problems)});

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/octahedral.h"
+#include "render/catcher.h"
 #include "render/surface_lobes.h"
 
 namespace crescente::render {
@@ -60,7 +61,8 @@ private:
     void add(std::uint32_t i, std::uint32_t way, float x, float y, int depth) {
         const Node& node = tile_.nodes[i];
         if (node.left_scene()) return;
-        if (node.sampled && i < tile_.samples.size() && tile_.samples[i] > 0) found_.push_back(noisy(i, way, x, y));
+        // What a catcher keeps as diffuse is no radiance, and its alpha goes by the same samples: it is shown as it is.
+        if (node.sampled && i < tile_.samples.size() && tile_.samples[i] > 0 && !catches(world_, tile_, i)) found_.push_back(noisy(i, way, x, y));
         if (depth == deepest) return;
         for_each_child(tile_, i, [&](std::uint32_t child, Way next) { add(child, way << 2 | static_cast<std::uint32_t>(next), x, y, depth + 1); });
     }
@@ -96,9 +98,9 @@ private:
 
     // Of the sharpest lobe that is sampled.
     static float roughness_of(const Lobes& lobes) {
-        float roughness = 1;
+        float roughness = 1;  // of lobes along whose grain alone they are rough: across it
         if (lobes.highlight_lobe == HighlightLobe::phong || lobes.highlight_lobe == HighlightLobe::blinn) roughness = std::sqrt(2 / (lobes.exponent + 2));
-        if (lobes.layered() && !lobes.smooth()) roughness = std::min(roughness, lobes.alpha);
+        if (lobes.layered() && !lobes.smooth()) roughness = std::min(roughness, std::max(lobes.alpha, smoothest_alpha));
         if (lobes.coat > 0 && !lobes.coat_is_smooth()) roughness = std::min(roughness, lobes.coat_alpha);
         return roughness;
     }

@@ -69,7 +69,7 @@ Rgb environment_radiance(const Environment& environment, Vec3 direction) {
 
 Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3 normal, Vec3 to_viewer, bool inside) {
     if (environment.strength() == 0) return {};
-    const Rgb irradiance = environment.irradiance(normal);
+    const Rgb irradiance = environment.irradiance(normal) * static_cast<float>(environment.even_share());
     Rgb result = lobes.ambient_diffuse * irradiance;
     if (lobes.layered()) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);

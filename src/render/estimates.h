@@ -16,7 +16,7 @@ struct World;
 
 // The light of one group at one node, from so many samples as Tile::samples says.
 struct Estimate {
-    Rgb diffuse, glossy;       // sums of radiance to the viewer, by part of the material, for a group of scale 1
+    Rgb diffuse, glossy;       // sums of radiance to the viewer, by part of the material, for a group of scale 1; of catchers: as render/catcher.h says
     std::uint32_t spread = 0;  // until the pilot is complete: sum of squared luminances; from then on how the pilot's samples were spread
 };
 static_assert(sizeof(Estimate) == 28);

@@ -81,6 +81,8 @@ private:
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
         unsigned sampled;             // lanes that take the light of lights with extent from their samples
+        unsigned catching;            // lanes of catchers (render/catcher.h)
+        float open[lane_count], all[lane_count];  // light that they caught so far
         unsigned layered;             // of those, lanes that ask for layer_at of the light
         FloatLanes sum[3];            // radiance so far, by channel
         // Of the current light:
@@ -97,6 +99,9 @@ private:
     void aim(PointLanes& points, std::size_t light) const;
     void leave_out_of_reach(const PointLanes& points, std::size_t light);
     void add_light(PointLanes& points, std::size_t light) const;
+    void begin_catcher(PointLanes& points, int lane) const;
+    void catch_light(PointLanes& points, std::size_t light) const;
+    void end_catcher(const PointLanes& points, int lane);
     void spawn_from_points(std::vector<Pending>& pending);
     bool occluded_as_last(std::size_t light, std::uint8_t depth, const geometry::Ray& ray);
     void trace_shadows(std::size_t light, accel::Coherence coherence);
@@ -115,7 +120,7 @@ private:
     std::vector<std::uint32_t> parents_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;
-    std::vector<std::uint32_t> fresh_;
+    std::vector<std::uint32_t> fresh_, sky_nodes_;
     std::vector<accel::Hit> last_occluder_;  // shadow cache: by light and depth
 };
 

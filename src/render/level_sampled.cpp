@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/catcher.h"
 #include "render/path_sampler.h"
 #include "render/surface_lobes.h"
 
@@ -134,7 +135,9 @@ private:
         point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), node.inside};
         point.to_viewer = normalize(viewer - node.position);
         point.offset = node.offset;
+        point.instance = node.instance;
         point.lobes = &lobes_of(world_, tile_, i, scratch);
+        point.catches = catches(world_, tile_, i);
         if (world_.filters_light || !world_.textured.empty()) point.path = path_length(world_, tile_, i);
         point.key = key_of(node.position);
         return point;

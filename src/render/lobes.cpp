@@ -99,6 +99,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
     const double r0 = (m.ior - 1) / (m.ior + 1);
     Lobes lobes;
     lobes.emission = lobes.shining = m.emissive * opacity;
+    lobes.catcher = m.catcher;
     lobes.coverage = opacity;
     const Rgb diffuse = m.base_color * (dielectric * (1 - static_cast<float>(m.transmission)) * opacity);
     lobes.diffuse = diffuse * static_cast<float>(1 / pi);

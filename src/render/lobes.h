@@ -89,6 +89,7 @@ struct Lobes {
     float roughness = 0;     // of that blur
     Rgb shadow_filter;       // what passes a crossing in a shadow ray
     bool one_sided = false;  // rays do not meet the back: glTF culls it. Never what refracts: rays must leave a body again
+    bool catcher = false;    // render/catcher.h
     Rgb albedo;              // for the picture's albedo layer
 
     bool operator==(const Lobes&) const = default;

@@ -66,8 +66,7 @@ Progress Session::advance(const Deadline& deadline) {
             if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
             tile.going_on = false;
             if (keep) {
-                release(tile.pixels);
-                tile.pixels_stage = -1;
+                forget_picture(tile);
                 return tile.trim();
             }
             s.drop_finished(tile);
@@ -114,7 +113,7 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     s.is_finished = false;
     EditReport report{std::move(*undo)};
     World& before = *s.world;
-    auto now = world_without_accelerator(std::move(before.scene));
+    auto now = world_without_accelerator(std::move(before.scene), &before);
     Change change = change_between(before, settings, *now, reshaped);
     const accel::Accelerator* accelerator = before.accelerator.get();
     if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings), reshaped); !given) {

@@ -17,7 +17,7 @@ scene::Image Session::picture(bool all_layers) const {
         return std::move(frame.image);
     }
     s.catch_up(Deadline::never());  // layers speak of the scene as it is
-    scene::Image image = blank_image(s.width(), s.height(), true);
+    scene::Image image = blank_image(s.width(), s.height(), true, s.keeps_alpha());
     s.show(image, std::vector<bool>(s.tiles.size(), true), true);
     return image;
 }
@@ -25,7 +25,9 @@ scene::Image Session::picture(bool all_layers) const {
 std::vector<Area> Session::refresh(Frame& frame) const {
     const State& s = *state_;
     scene::Image& image = frame.image;
-    if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1) frame = {blank_image(s.width(), s.height(), false), 0};
+    if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1 || image.layers[0].channels.size() != (s.keeps_alpha() ? 4 : 3)) {
+        frame = {blank_image(s.width(), s.height(), false, s.keeps_alpha()), 0};
+    }
     std::vector<bool> which(s.tiles.size());
     std::transform(s.tiles.begin(), s.tiles.end(), which.begin(), [&](const Tile& tile) { return tile.changed > frame.time; });
     // Tiles that were dropped are filtered when the picture is finished, and not before.

@@ -52,6 +52,7 @@ struct Session::State {
     TestCounts past_tests;
 
     int tiles_across() const { return (width() + tile_size() - 1) / tile_size(); }
+    bool keeps_alpha() const { return world->environment.source().transparent; }
     int width() const { return world->scene.settings.width; }
     int height() const { return world->scene.settings.height; }
     int tile_size() const { return world->scene.settings.tile; }

@@ -58,6 +58,7 @@ private:
         const int all = static_cast<int>(stages_.size());
         if (tile_.stage < 0 || tile_.stage > all || tile_.pixels_stage < -1 || tile_.pixels_stage > all) return false;
         if (!tile_.pixels.empty() && tile_.pixels.size() != pixel_count()) return false;
+        if (!tile_.clear_pixels.empty() && tile_.clear_pixels.size() != tile_.pixels.size()) return false;
         // What waits for its light gets it from the stage of shadows.
         const int visible = first_stage_after(scene::Level::visible);
         if (!tile_.lit && (visible == all || tile_.stage > visible)) return false;

@@ -51,6 +51,7 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
         field(&M::iridescence_thickness, {"iridescence_thickness", FieldType::number, "nm", 0, 100000, "Of the film"}),
         field(&M::opacity, {"opacity", FieldType::number, "", 0, 1, "Coverage; the rest passes straight on"}),
         field(&M::double_sided, {"double_sided", FieldType::boolean, "", 0, 1, "Both sides are met; false: the back is not there, for eye and light (what transmits has both sides always)"}),
+        field(&M::catcher, {"catcher", FieldType::boolean, "", 0, 1, "The camera sees only the shadows and reflections that it catches, over what is behind the scene"}),
     };
     return table;
 }
@@ -80,7 +81,10 @@ const FieldTable<Light>& Light::fields() {
         field(&Light::radius, {"radius", FieldType::number, "m", 0, unbounded, "Radius of a disk or sphere"}),
         field(&Light::two_sided, {"two_sided", FieldType::boolean, "", 0, 1, "A rectangle or disk shines to both sides"}),
         field(&Light::visible, {"visible", FieldType::boolean, "", 0, 1, "The camera sees the rectangle, disk or sphere itself; mirrors always do"}),
+        field(&Light::points, {"points", FieldType::integer, "", 1, 256, "Levels below soft see so many points of a light with extent: the more, the softer its shadows"}),
         field(&Light::group, {"group", FieldType::text, "", 0, 0, "Lights with extent of one group are sampled together; empty: each by itself"}),
+        field(&Light::only, {"only", FieldType::names, "", 0, 0, "Lights these objects alone, by name, with all below them; empty: everything"}),
+        field(&Light::except, {"except", FieldType::names, "", 0, 0, "Does not light these objects, nor what is below them; they still throw shadows"}),
     };
     return table;
 }
@@ -108,10 +112,14 @@ const FieldTable<Environment>& Environment::fields() {
         field(&E::backdrop, {"backdrop", FieldType::boolean, "", 0, 1, "The camera sees the backdrop colours instead"}),
         field(&E::backdrop_bottom, {"backdrop_bottom", FieldType::color, "", 0, unbounded, "At the bottom of the picture"}),
         field(&E::backdrop_top, {"backdrop_top", FieldType::color, "", 0, unbounded, "At the top of the picture"}),
+        field(&E::transparent, {"transparent", FieldType::boolean, "", 0, 1, "The camera sees nothing behind the scene: the picture keeps an alpha channel"}),
         field(&E::strength, {"strength", FieldType::number, "", 0, unbounded, "How much the gradient lights surfaces"}),
+        field(&E::directions, {"directions", FieldType::integer, "", 0, 256,
+              "Levels below soft take most of its light from so many directions, with shadows; 0: evenly, without shadows"}),
+        field(&E::sky, {"sky", FieldType::text, "", 0, 0, "Clear sky and sun in place of the gradient: azimuth,elevation or 2024-06-21T14:30,latitude,longitude (universal time), and ,turbidity"}),
         field(&E::image, {"image", FieldType::text, "", 0, 0, "Equirectangular picture in place of the gradient: path of a .hdr, .exr or other file; its middle is at +x"}),
-        field(&E::rotation, {"rotation", FieldType::angle, "deg", -unbounded, unbounded, "Turns the picture about +y, counter-clockwise seen from above"}),
-        field(&E::intensity, {"intensity", FieldType::number, "", 0, unbounded, "Factor of the picture's radiance, seen and as light"}),
+        field(&E::rotation, {"rotation", FieldType::angle, "deg", -unbounded, unbounded, "Turns picture or sky about +y, counter-clockwise seen from above"}),
+        field(&E::intensity, {"intensity", FieldType::number, "", 0, unbounded, "Factor of the radiance of picture or sky, seen and as light"}),
     };
     return table;
 }
@@ -132,6 +140,7 @@ const FieldTable<Settings>& Settings::fields() {
         field(&S::denoise, {"denoise", FieldType::choice, "", 0, 1, "What is shown of light with fewer samples than it wants: its mean with like neighbours, or the noise", {"off", "filter"}}),
         field(&S::tonemap, {"tonemap", FieldType::choice, "", 0, 2, "How radiance becomes display colour", {"automatic", "srgb", "neutral"}}),
         field(&S::exposure, {"exposure", FieldType::number, "stops", -32, 32, "Brightness of the picture"}),
+        field(&S::auto_exposure, {"auto_exposure", FieldType::boolean, "", 0, 1, "The picture's log-average becomes middle grey, or less, so that little burns out; `exposure` is added"}),
         field(&S::subpixel_shortcut, {"subpixel_shortcut", FieldType::choice, "", 0, 2,
               "Try a pixel's own objects first for new rays inside it", {"off", "exact", "trust"}}),
         field(&S::accelerator, {"accelerator", FieldType::choice, "", 0, 2, "How rays find objects", {"embree", "kay-kajiya", "linear"}}),

@@ -64,6 +64,7 @@ struct PhysicalMaterial {
     double iridescence_thickness = 400;  // of the film, nm
     double opacity = 1;                  // alpha coverage: the rest passes straight on
     bool double_sided = true;
+    bool catcher = false;                // the camera sees only the shadows and reflections that it catches, over what is behind the scene
     static const FieldTable<PhysicalMaterial>& fields();
     bool operator==(const PhysicalMaterial&) const = default;
 };

@@ -31,6 +31,7 @@ struct Settings {
     double contrast = 0.08;        // corners that differ by more, on a perceptual 0..1 scale, split the pixel
     Tonemap tonemap = Tonemap::automatic;
     double exposure = 0;           // stops
+    bool auto_exposure = false;    // the finished picture says how bright it is developed, `exposure` is added (scene/tonemap.h)
     SubpixelShortcut subpixel_shortcut = SubpixelShortcut::off;  // `trust` may change pixels
     // ------------------------------------------------------------------------------------------------------------------
     AcceleratorKind accelerator = AcceleratorKind::embree;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "base/spelling.h"
 #include "scene/field_check.h"
 
 namespace crescente::scene {
@@ -60,6 +63,7 @@ private:
         if (scene_.environment) {
             check_fields(*scene_.environment, "/environment");
             if (!scene_.environment->image.empty() && !scene_.environment->panorama) add("/environment/image", "the picture was not read");
+            if (!scene_.environment->sky.empty() && !scene_.environment->panorama) add("/environment/sky", "the sky was not made");
         }
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], "/lights/" + key_of(scene_.lights[i].name, i));
         check_light_groups();
@@ -147,8 +151,19 @@ private:
         if (light.falloff == Falloff::classic && light.constant == 0 && light.linear == 0 && light.quadratic == 0) {
             add(place + "/constant", "all terms of the classic falloff are 0");
         }
+        for (const auto& [list, field] : {std::pair{&light.only, "/only/"}, std::pair{&light.except, "/except/"}}) {
+            for (std::size_t i = 0; i < list->size(); ++i) check_object_name((*list)[i], place + field + std::to_string(i));
+        }
         if (has_extent(light)) check_extent(light, place);
         if (!light.profile.empty()) check_profile(light, place);
+    }
+
+    void check_object_name(const std::string& name, const std::string& place) {
+        if (node_names_.empty()) std::transform(scene_.nodes.begin(), scene_.nodes.end(), std::inserter(node_names_, node_names_.end()), [](const Node& n) { return n.name; });
+        if (!name.empty() && node_names_.contains(name)) return;
+        constexpr std::ptrdiff_t most_candidates = 10000;
+        const std::vector<std::string> known(node_names_.begin(), std::next(node_names_.begin(), std::min(most_candidates, std::ssize(node_names_))));
+        add(place, "there is no object '" + name.substr(0, 300) + "'", spelling_hint(name, known));
     }
 
     void check_profile(const Light& light, const std::string& place) {
@@ -478,6 +493,7 @@ private:
     const std::string& file_;
     Problems problems_;
     std::vector<std::uint32_t> parents_;  // the first parent of each node
+    std::set<std::string> node_names_;  // once they were asked for
 };
 
 }  // namespace

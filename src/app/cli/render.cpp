@@ -184,6 +184,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     }();
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
+    if (const auto writable = check_alpha(options.picture.outputs, loaded->scene); !writable) return fail(writable.error());
     const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
     times.load = seconds_since(start);
@@ -233,7 +234,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (!options.picture.outputs.empty()) {
         const auto write_start = Clock::now();
         const scene::Image picture = session->picture(needs_all_layers(options.picture.outputs));
-        io::ImageOptions image = image_options(options.picture, session->scene());
+        io::ImageOptions image = image_options(options.picture, session->scene(), picture);
         image.metadata = {{"Software", std::string("Crescente ") + CRESCENTE_VERSION},
                           {"Command", invocation.command_line},
                           {"SceneHash", "xxh64:" + *hash},

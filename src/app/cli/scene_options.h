@@ -10,7 +10,6 @@
 
 #include "app/cli/view.h"
 #include "base/error.h"
-#include "scene/sky.h"
 #include "scene/studio.h"
 
 namespace crescente::app {
@@ -23,7 +22,7 @@ struct SceneOptions {
     std::optional<std::string> camera, field_of_view, environment, sky;
     bool orthographic = false;
     std::vector<std::string> overrides;  // --set path=value
-    std::optional<std::string> studio;
+    std::optional<std::string> studio, ground, background;
     bool no_studio = false, no_cache = false, verbose = false;
     std::string missing_textures = "error";
 };
@@ -37,9 +36,14 @@ struct SceneRequest {
     std::vector<std::pair<const Field<scene::Settings>*, FieldValue>> settings;
     View view;
     std::optional<std::string> environment;  // a picture's file
-    std::optional<scene::Daylight> daylight;
+    std::optional<std::string> sky;          // where the sun stands, as scene::daylight_of reads it
     std::vector<std::string> overrides;
     std::optional<scene::Studio> asked_studio;
+    std::optional<scene::Ground> ground;
+    struct Background {
+        std::optional<math::Rgb> color;  // none: transparent
+    };
+    std::optional<Background> background;
     bool studio = true, cache = true, verbose = false;
     bool texture_pattern = false;
 };
