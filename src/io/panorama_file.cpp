@@ -77,7 +77,7 @@ Expected<ReadPanorama> read_panorama(const std::filesystem::path& file) {
     if (!bytes) return tl::unexpected(bytes.error());
     try {
         DecodedPicture picture;
-        decode_pictures({&*bytes, 1}, most_pixels, {&picture, 1});
+        decode_pictures({&*bytes, 1}, most_pixels, [&](std::size_t, DecodedPicture decoded) { picture = std::move(decoded); });
         if (!picture.error.empty()) return failure(ErrorKind::input, {file.string(), {}, "the picture " + picture.error, {}});
         return made_of(picture.pixels, file.string());
     } catch (const std::bad_alloc&) {
