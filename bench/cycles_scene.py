@@ -349,6 +349,7 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     layer = layer_image(told["layer"])
     if job["import"]:
+        numpy.bool = bool  # the importer of 3.4 asks for the name that NumPy 1.24 took away
         bpy.ops.import_scene.gltf(filepath=job["import"])
         for o in list(bpy.context.scene.objects):
             if o.type in ("LIGHT", "CAMERA"):
