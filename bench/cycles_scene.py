@@ -354,6 +354,8 @@ def main():
         for o in list(bpy.context.scene.objects):
             if o.type in ("LIGHT", "CAMERA"):
                 bpy.data.objects.remove(o)
+            elif o.type == "ARMATURE":
+                o.data.pose_position = "REST"  # not in the middle of an animation
         if job["materials"] == "twin":
             for material in bpy.data.materials:
                 if material.use_nodes:
