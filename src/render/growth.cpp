@@ -37,15 +37,9 @@ void make_shadow_rays(const Vec3Lanes& position, const Vec3Lanes& geometric_norm
     make_rays(starts(position, geometric_normal, offset, reach.to_light), reach.to_light, reach.distance * (1 - 1e-12) - 2.0 * offset, rays);
 }
 
-Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) {
-    return from_octahedral(OctahedralPoint<Lanes>{code.a / octahedral_scale, code.b / octahedral_scale});
-}
-
-constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
+Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) { return from_octahedral(OctahedralPoint<Lanes>{code.a / octahedral_scale, code.b / octahedral_scale}); }
 
 }  // namespace
-
-geometry::Ray camera_ray(const World& world, LatticePoint point) { return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step); }
 
 std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first) {
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());

@@ -25,7 +25,10 @@ constexpr LatticePoint point_of(std::uint64_t key) { return {static_cast<std::ui
 // Of a pixel corner, by its coordinates in the picture.
 constexpr LatticePoint corner_point(int x, int y) { return {static_cast<std::uint32_t>(x) << subpixel_bits, static_cast<std::uint32_t>(y) << subpixel_bits}; }
 
-geometry::Ray camera_ray(const World& world, LatticePoint point);
+inline geometry::Ray camera_ray(const World& world, LatticePoint point) {
+    constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
+    return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step);
+}
 
 // Work is cut into chunks of this many rays, between which a deadline is looked at.
 inline constexpr std::size_t chunk_size = 256;

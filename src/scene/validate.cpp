@@ -30,17 +30,12 @@ class Validator {
 public:
     Validator(const Scene& scene, const std::string& file) : scene_(scene), file_(file) {}
 
-    Problems run() {
+    // `all`: or of shapes the edited ones alone.
+    Problems run(bool all, std::span<const ShapeId> edited) {
         check_things();
-        for (std::uint32_t i = 0; i < scene_.shapes.size(); ++i) check_shape(i);
-        if (check_hierarchy()) check_visible(true);
-        return std::move(problems_);
-    }
-
-    Problems run_edited(std::span<const ShapeId> edited) {
-        check_things();
+        for (std::uint32_t i = 0; all && i < scene_.shapes.size(); ++i) check_shape(i);
         for (const ShapeId shape : edited) check_shape(shape.value);
-        if (check_hierarchy()) check_visible(false);
+        if (check_hierarchy()) check_visible(all);
         return std::move(problems_);
     }
 
@@ -498,8 +493,8 @@ private:
 
 }  // namespace
 
-Problems validate(const Scene& scene, const std::string& file) { return Validator{scene, file}.run(); }
+Problems validate(const Scene& scene, const std::string& file) { return Validator{scene, file}.run(true, {}); }
 
-Problems validate_edited(const Scene& scene, const std::string& file, std::span<const ShapeId> edited) { return Validator{scene, file}.run_edited(edited); }
+Problems validate_edited(const Scene& scene, const std::string& file, std::span<const ShapeId> edited) { return Validator{scene, file}.run(false, edited); }
 
 }  // namespace crescente::scene
