@@ -80,6 +80,10 @@ void list(Archive& a, List& v, std::size_t least, Each&& each) {  // an element 
     for (std::size_t i = 0; i < v.size() && a.good(); ++i) each(v[i]);
 }
 template <class Archive>
+void value(Archive& a, std::vector<std::string>& v) {
+    list(a, v, sizeof(std::uint64_t), [&](std::string& text) { value(a, text); });
+}
+template <class Archive>
 void problems(Archive& a, Problems& v) {
     list(a, v, 4 * sizeof(std::uint64_t), [&](Problem& p) {
         for (std::string* part : {&p.file, &p.place, &p.reason, &p.hint}) value(a, *part);

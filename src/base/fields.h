@@ -16,9 +16,9 @@
 namespace crescente {
 
 // What a field can hold, in terms that need no upper layer. An enumeration travels as its index into `choices`.
-using FieldValue = std::variant<bool, std::int64_t, double, std::string, std::array<double, 3>>;
+using FieldValue = std::variant<bool, std::int64_t, double, std::string, std::array<double, 3>, std::vector<std::string>>;
 
-enum class FieldType { boolean, integer, number, text, choice, vector, color, angle };
+enum class FieldType { boolean, integer, number, text, choice, vector, color, angle, names };
 
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
@@ -42,13 +42,13 @@ struct Field {
 template <class Owner>
 using FieldTable = std::vector<Field<Owner>>;
 
-// Makes a field from a member. T is bool, an integer, double, float, std::string, an enumeration (with choices), or any
+// Makes a field from a member. T is bool, an integer, double, float, std::string, a list of names (std::vector<std::string>), an enumeration (with choices), or any
 // struct of three numbers constructible as T{a, b, c} and readable as value[0..2] (vectors and colours). A field of type angle is
 // given in degrees in files and kept in radians in the member.
 template <class Owner, class T>
 Field<Owner> field(T Owner::*member, FieldInfo info) {
     constexpr double degree = 3.14159265358979323846 / 180.0;
-    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
+    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string> || std::is_same_v<T, std::vector<std::string>>) {
         return {std::move(info), [member](const Owner& o) { return FieldValue{o.*member}; },
                 [member](Owner& o, const FieldValue& v) { o.*member = std::get<T>(v); }};
     } else if constexpr (std::is_enum_v<T> || std::is_integral_v<T>) {

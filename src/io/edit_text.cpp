@@ -297,7 +297,10 @@ private:
         if (json.is_null()) return;
         scene::Environment& environment = draft_.environment.emplace();
         read_fields(json, environment, scene::Environment::fields(), measure_, place, problems_);
-        if (json.object() && json.find("image")) load_panorama(environment, *json.find("image"), place / "image", problems_);
+        for (const char* from : {"image", "sky"}) {
+            const Json* named = json.object() ? json.find(from) : nullptr;
+            if (named) load_panorama(environment, *named, place / from, problems_);
+        }
     }
 
     void batch(const Json& json, const Place& place) {
@@ -380,11 +383,12 @@ const Json::Member* only_member(const Json& json, const Place& place, std::span<
     return nullptr;
 }
 
-Expected<std::vector<scene::Edit>> read_edit(const Json& json, const scene::Scene& scene, const std::string& file) {
+Expected<std::vector<scene::Edit>> read_edit(const Json& json, const scene::Scene& scene, const std::string& file, Problems* warnings) {
     ProblemList problems{file};
     EditReader reader(scene, problems);
     reader.read(json, Place{});
     if (!problems.empty()) return tl::unexpected(Error{ErrorKind::input, problems.take()});
+    if (warnings) warnings->insert(warnings->end(), problems.warnings().begin(), problems.warnings().end());
     std::vector<scene::Edit> edits = reader.draft().edits();
     if (const auto loaded = load_images(edits, file); !loaded) return tl::unexpected(loaded.error());
     return edits;

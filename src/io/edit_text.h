@@ -23,7 +23,8 @@ const Json::Member* only_member(const Json& json, const Place& place, std::span<
 // What the edit makes of the scene, as the scene is now; with render::Session::edit it is done. Values and lengths are as in a scene file of the scene's
 // unit, axes the scene's own, y up. Errors (input): every problem, with `file`, line and JSON pointer. What only the result shows (a flat transform, a
 // ring of objects) is found out by scene::apply.
-Expected<std::vector<scene::Edit>> read_edit(const Json& json, const scene::Scene& scene, const std::string& file);
+// `warnings`, if given: what is not as it should be, but does no harm, is appended.
+Expected<std::vector<scene::Edit>> read_edit(const Json& json, const scene::Scene& scene, const std::string& file, Problems* warnings = nullptr);
 Expected<std::vector<scene::Edit>> read_edit_text(std::string_view text, const scene::Scene& scene, const std::string& file);
 
 }  // namespace crescente::io

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/mesh_tangents.h"
 #include "io/gltf_document.h"
 #include "io/gltf_draco.h"
 #include "io/gltf_material.h"
@@ -22,6 +23,8 @@ const std::vector<std::string> known_extensions{
     "KHR_materials_transmission", "KHR_materials_volume",            "KHR_materials_unlit",
     "KHR_mesh_quantization",      "EXT_mesh_gpu_instancing",         "KHR_materials_pbrSpecularGlossiness",
     "KHR_texture_transform",      "KHR_materials_variants",          "KHR_materials_clearcoat",
+    "KHR_materials_specular",     "KHR_materials_sheen",             "KHR_materials_anisotropy",
+    "KHR_materials_iridescence",  "KHR_materials_dispersion",
 };
 
 bool is_known(const std::string& extension) {
@@ -49,6 +52,7 @@ public:
     scene::Scene read() {
         read_hierarchy();
         materials_.warn_of_textures();
+        add_missing_tangents();
         tell(counts_.lines_and_points, " primitives are points or lines and are not shown");
         tell(counts_.degenerate, " triangles have no area and were dropped");
         tell(counts_.bad_normals, " normals have no direction: the face's is taken");
@@ -63,6 +67,20 @@ public:
 private:
     void tell(std::size_t count, const char* what) {
         if (count > 0) document_.warn(std::to_string(count) + what);
+    }
+
+    // Of meshes that a material bends the normals or the grain of by their texture coordinates.
+    void add_missing_tangents() {
+        for (const scene::Node& node : scene_.nodes) {
+            const bool asks = std::any_of(node.materials.begin(), node.materials.end(), [&](scene::MaterialId id) { return id.valid() && asks_for_tangents(scene_.materials[id.value]); });
+            if (!asks || !node.shape.valid()) continue;
+            if (auto* mesh = std::get_if<geometry::Mesh>(&scene_.shapes[node.shape.value].shape)) geometry::add_tangents(*mesh);
+        }
+    }
+    static bool asks_for_tangents(const scene::Material& material) {
+        const auto bends = [](const scene::TextureBinding& b) { return b.target == "normal" || b.target == "clearcoat_normal"; };
+        const auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
+        return (m && m->anisotropy > 0) || std::any_of(material.textures.begin(), material.textures.end(), bends);
     }
 
     std::vector<std::size_t> top_nodes() {

@@ -120,7 +120,51 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
         bind("clearcoat_roughness", of_channel(*rough, scene::Channel::green));
     }
 
+    if (auto bumps = texture(clearcoat, place, "clearcoatNormalTexture"); bumps && m.clearcoat > 0) {
+        bumps->strength = document_.number(*clearcoat.find("clearcoatNormalTexture"), place / "clearcoatNormalTexture", "scale", 1);
+        bind("clearcoat_normal", std::move(*bumps));
+    }
+
+    const Json& specular = extension("KHR_materials_specular");
+    m.specular = document_.number(specular, place, "specularFactor", 1);
+    m.specular_color = rgb(document_.numbers<3>(specular, place, "specularColorFactor", {1, 1, 1}));
+    if (auto share = texture(specular, place, "specularTexture"); share && !unlit) bind("specular", of_channel(*share, scene::Channel::alpha));
+    if (auto tint = texture(specular, place, "specularColorTexture"); tint && !unlit) bind("specular_color", std::move(*tint));
+
+    const Json& sheen = extension("KHR_materials_sheen");
+    m.sheen_color = rgb(document_.numbers<3>(sheen, place, "sheenColorFactor", {0, 0, 0}));
+    m.sheen_roughness = document_.number(sheen, place, "sheenRoughnessFactor", 0);
+    if (!math::is_black(m.sheen_color)) {
+        if (auto tint = texture(sheen, place, "sheenColorTexture")) bind("sheen_color", std::move(*tint));
+        if (auto rough = texture(sheen, place, "sheenRoughnessTexture")) bind("sheen_roughness", of_channel(*rough, scene::Channel::alpha));
+    }
+
+    const Json& anisotropy = extension("KHR_materials_anisotropy");
+    m.anisotropy = document_.number(anisotropy, place, "anisotropyStrength", 0);
+    m.anisotropy_rotation = document_.number(anisotropy, place, "anisotropyRotation", 0);
+    if (auto grain = texture(anisotropy, place, "anisotropyTexture"); grain && m.anisotropy > 0) {
+        bind("anisotropy", of_channel(*grain, scene::Channel::blue));
+        bind("grain", std::move(*grain));
+    }
+    if (m.anisotropy > 0) m.grain = scene::Grain::surface;
+
+    const Json& iridescence = extension("KHR_materials_iridescence");
+    m.iridescence = document_.number(iridescence, place, "iridescenceFactor", 0);
+    if (m.iridescence > 0) {
+        m.iridescence_ior = document_.number(iridescence, place, "iridescenceIor", 1.3);
+        m.iridescence_thickness = document_.number(iridescence, place, "iridescenceThicknessMaximum", 400);
+        if (auto share = texture(iridescence, place, "iridescenceTexture")) bind("iridescence", of_channel(*share, scene::Channel::red));
+        if (auto thick = texture(iridescence, place, "iridescenceThicknessTexture")) {
+            // From least to most, as the most times what the texture's strength makes of it.
+            const double least = document_.number(iridescence, place, "iridescenceThicknessMinimum", 100);
+            if (m.iridescence_thickness > 0) thick->strength = std::clamp(1 - least / m.iridescence_thickness, -1000.0, 1000.0);
+            bind("iridescence_thickness", of_channel(*thick, scene::Channel::green));
+        }
+    }
+    m.dispersion = document_.number(extension("KHR_materials_dispersion"), place, "dispersion", 0);
+
     const Json& volume = extension("KHR_materials_volume");
+    if (const double thickness = document_.number(volume, place, "thicknessFactor", 0); thickness == 0 && m.transmission > 0) m.dispersion = 0;  // a thin wall bends nothing
     const double distance = document_.number(volume, place, "attenuationDistance", 0);  // absent: infinite
     if (distance > 0) {
         const Vector color = document_.numbers<3>(volume, place, "attenuationColor", {1, 1, 1});
@@ -134,15 +178,23 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
         m.base_color = {0, 0, 0};
         m.metallic = 0;
         m.roughness = 1;
+        m.specular = 0, m.specular_color = {1, 1, 1}, m.clearcoat = 0, m.sheen_color = {0, 0, 0}, m.iridescence = 0, m.transmission = 0, m.anisotropy = 0, m.dispersion = 0;
+        const auto is_light = [](const scene::TextureBinding& b) { return b.target == "emissive" || b.target == "opacity"; };
+        std::erase_if(textures, [&](const scene::TextureBinding& b) { return !is_light(b); });
     }
     return {document_.text(object, place, "name"), m, std::move(textures)};
 }
 
 std::shared_ptr<const scene::TextureImage> GltfMaterials::image(std::size_t which) {
     const auto [known, is_new] = images_.try_emplace(which);
-    if (is_new) {
-        if (auto source = document_.image_source(which)) known->second = std::make_shared<const scene::TextureImage>(std::move(*source));
-    }
+    if (!is_new) return known->second;
+    // Many images may name one piece of a buffer: it is kept once.
+    const Json& object = document_.array("images")[which];
+    const Json* view = object.find("uri") ? nullptr : object.find("bufferView");
+    const std::int64_t* piece = view ? view->integer() : nullptr;
+    if (piece && pieces_.contains(*piece)) return known->second = pieces_.at(*piece);
+    if (auto source = document_.image_source(which)) known->second = std::make_shared<const scene::TextureImage>(std::move(*source));
+    if (piece) pieces_.emplace(*piece, known->second);
     return known->second;
 }
 
@@ -155,7 +207,11 @@ std::optional<scene::Texture> GltfMaterials::texture(const Json& owner, const Pl
     if (!index) return std::nullopt;
     const Json& object = textures[*index];
     if (!object.find("source")) {
-        ++other_sources_;
+        const Json* extensions = object.find("extensions");
+        if (extensions && extensions->object()) {
+            for (const auto& member : *extensions->object()) other_sources_.insert(member.key.substr(0, 100));
+        }
+        ++without_source_;
         return std::nullopt;
     }
     const auto source = document_.index(object, list / *index, "source", document_.array("images").size());
@@ -195,7 +251,13 @@ std::optional<scene::Texture> GltfMaterials::texture(const Json& owner, const Pl
 
 void GltfMaterials::warn_of_textures() {
     if (glossy_textures_ > 0) document_.warn(std::to_string(glossy_textures_) + " textures of specular colour and glossiness are left out: their factors are taken");
-    if (other_sources_ > 0) document_.warn(std::to_string(other_sources_) + " textures have their picture in an extension that is not read, and are left out");
+    if (without_source_ == 0) return;
+    std::string names;
+    for (const std::string& name : other_sources_) {
+        const std::string_view format = name == "KHR_texture_basisu" ? " (KTX2, Basis Universal)" : name == "EXT_texture_webp" || name == "GOOGLE_texture_webp" ? " (WebP)" : name == "MSFT_texture_dds" ? " (DDS)" : "";
+        names += (names.empty() ? "" : ", ") + name + std::string(format);
+    }
+    document_.warn(std::to_string(without_source_) + " textures are left out: " + (names.empty() ? "they name no picture" : "they have their picture only in an extension that is not read: " + names));
 }
 
 }  // namespace crescente::io

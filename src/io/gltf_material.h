@@ -26,8 +26,10 @@ private:
 
     GltfDocument& document_;
     std::map<std::size_t, std::shared_ptr<const scene::TextureImage>> images_;
+    std::map<std::int64_t, std::shared_ptr<const scene::TextureImage>> pieces_;  // by buffer view
     std::set<std::optional<std::size_t>> colored_;  // materials that some primitive with vertex colours has
-    std::size_t glossy_textures_ = 0, other_sources_ = 0;
+    std::size_t glossy_textures_ = 0, without_source_ = 0;
+    std::set<std::string> other_sources_;  // extensions in which textures have their pictures
 };
 
 }  // namespace crescente::io

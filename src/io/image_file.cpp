@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <span>
 #include <vector>
@@ -26,14 +28,15 @@ struct PictureFormat {
     bool linear;      // keeps the light itself
     bool deep;        // may have 16 bits
     bool all_layers;
+    bool alpha;       // keeps an alpha channel
 };
 
 const std::vector<PictureFormat>& picture_formats() {
     static const std::vector<PictureFormat> table{
-        {".png", nullptr, nullptr, false, true, false},  {".jpg", "jpeg", "jpeg:95", false, false, false},
-        {".jpeg", "jpeg", "jpeg:95", false, false, false}, {".tif", "tiff", "zip", false, true, false},
-        {".tiff", "tiff", "zip", false, true, false},    {".hdr", "hdr", nullptr, true, false, false},
-        {".exr", "openexr", "zip", true, false, true},
+        {".png", nullptr, nullptr, false, true, false, true},  {".jpg", "jpeg", "jpeg:95", false, false, false, false},
+        {".jpeg", "jpeg", "jpeg:95", false, false, false, false}, {".tif", "tiff", "zip", false, true, false, true},
+        {".tiff", "tiff", "zip", false, true, false, true},    {".hdr", "hdr", nullptr, true, false, false, false},
+        {".exr", "openexr", "zip", true, false, true, true},
     };
     return table;
 }
@@ -51,6 +54,8 @@ Expected<PictureFormat> format_of(const std::filesystem::path& file) {
     return failure(ErrorKind::usage, {file.string(), {}, reason, spelling_hint(extension, known)});
 }
 
+bool has_alpha(const Image& image) { return image.layers.front().channels == std::vector<std::string>{"R", "G", "B", "A"}; }
+
 // The first three channels of the first layer, which is what display formats show: the layer's own values, or `made` from them.
 std::span<const float> color_of(const Image& image, std::vector<float>& made) {
     const Layer& layer = image.layers.front();
@@ -61,6 +66,10 @@ std::span<const float> color_of(const Image& image, std::vector<float>& made) {
         for (std::size_t c = 0; c < 3; ++c) made[3 * pixel + c] = layer.values[pixel * channels + std::min(c, channels - 1)];
     }
     return made;
+}
+
+tl::unexpected<Error> no_alpha(const std::filesystem::path& file, const PictureFormat& format) {
+    return failure(ErrorKind::usage, {file.string(), {}, format.extension + " keeps no alpha channel, which a transparent background asks for", ".png, .tif and .exr do"});
 }
 
 Expected<void> check(const Image& image) {
@@ -120,14 +129,48 @@ Expected<std::string> encode_by_module(const Image& image, const PictureFormat& 
     return encode_with_openimageio(request);
 }
 
+// Display colours with alpha. PNG wants them apart (straight), so that what adds light without covering anything, a reflection on ground that is not seen, gets as much alpha as it is
+// bright: over black it is what it was. TIFF wants alpha multiplied in.
+template <class Sample>
+std::vector<Sample> display_with_alpha(const Image& image, bool multiplied, const ImageOptions& options) {
+    const std::vector<float>& values = image.layers.front().values;
+    const std::size_t pixels = values.size() / 4;
+    const auto gain = static_cast<float>(std::exp2(options.exposure));
+    std::vector<float> colors(3 * pixels), alphas(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        const float* v = &values[4 * p];
+        const float brightest = std::max({v[0], v[1], v[2], 0.0f}) * gain;
+        alphas[p] = std::clamp(std::max(v[3], std::min(1.0f, brightest)), 0.0f, 1.0f);
+        for (std::size_t k = 0; k < 3; ++k) colors[3 * p + k] = alphas[p] > 0 ? v[k] / alphas[p] : 0.0f;
+    }
+    std::vector<Sample> shown(3 * pixels), samples(4 * pixels);
+    scene::display_image(colors, options.tonemap, options.exposure, std::span<Sample>(shown));
+    constexpr float largest = std::numeric_limits<Sample>::max();
+    for (std::size_t p = 0; p < pixels; ++p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            samples[4 * p + k] = multiplied ? static_cast<Sample>(static_cast<float>(shown[3 * p + k]) * alphas[p] + 0.5f) : shown[3 * p + k];
+        }
+        samples[4 * p + 3] = static_cast<Sample>(alphas[p] * largest + 0.5f);
+    }
+    return samples;
+}
+
 template <class Sample>
 Expected<std::string> encode_display(const Image& image, const PictureFormat& format, const ImageOptions& options) {
-    std::vector<float> made;
-    const std::span<const float> color = color_of(image, made);
-    std::vector<Sample> samples(color.size());
-    scene::display_image(color, options.tonemap, options.exposure, std::span<Sample>(samples));
-    if (!format.encoder) return encode_png(image.width, image.height, std::span<const Sample>(samples), options.metadata);
-    return encode_by_module(image, format, options, samples.data(), int(8 * sizeof(Sample)), {"R", "G", "B"});
+    std::vector<Sample> samples;
+    const bool alpha = has_alpha(image);
+    if (alpha) {
+        samples = display_with_alpha<Sample>(image, format.encoder != nullptr, options);
+    } else {
+        std::vector<float> made;
+        const std::span<const float> color = color_of(image, made);
+        samples.resize(color.size());
+        scene::display_image(color, options.tonemap, options.exposure, std::span<Sample>(samples));
+    }
+    if (!format.encoder) return encode_png(image.width, image.height, alpha ? 4 : 3, std::span<const Sample>(samples), options.metadata);
+    std::vector<std::string> channels{"R", "G", "B"};
+    if (alpha) channels.push_back("A");
+    return encode_by_module(image, format, options, samples.data(), int(8 * sizeof(Sample)), channels);
 }
 
 Expected<std::string> encode(const Image& image, const PictureFormat& format, const ImageOptions& options) {
@@ -145,9 +188,10 @@ Expected<std::string> encode(const Image& image, const PictureFormat& format, co
 
 }  // namespace
 
-Expected<void> can_write(const std::filesystem::path& file) {
+Expected<void> can_write(const std::filesystem::path& file, bool alpha) {
     const auto format = format_of(file);
     if (!format) return tl::unexpected(format.error());
+    if (alpha && !format->alpha) return no_alpha(file, *format);
     if (format->encoder && !has_openimageio()) {
         return failure(ErrorKind::unsupported, {file.string(), {}, "this build has no OpenImageIO, which writes " + format->extension,
                                                 "PNG needs no OpenImageIO"});
@@ -163,6 +207,7 @@ Expected<void> write_image(const Image& image, const std::filesystem::path& file
     }
     try {
         if (auto whole = check(image); !whole) return whole;
+        if (has_alpha(image) && !format->alpha) return no_alpha(file, *format);
         auto bytes = encode(image, *format, options);
         if (bytes) return write_atomically(file, *bytes);
         for (Problem& problem : bytes.error().problems) problem.file = file.string();

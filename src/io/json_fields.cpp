@@ -11,14 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::optional<std::array<double, 3>> color_of_text(const std::string& text) {
-    unsigned code = 0;
-    const auto [end, error] = std::from_chars(text.data() + std::min<std::size_t>(1, text.size()), text.data() + text.size(), code, 16);
-    if (text.size() != 7 || text[0] != '#' || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    const auto linear = [&](int shift) { return double{scene::srgb_decode(static_cast<float>((code >> shift) & 255) / 255.0f)}; };
-    return std::array<double, 3>{linear(16), linear(8), linear(0)};
-}
-
 std::optional<FieldValue> value_of(const Json& json, const FieldInfo& info, double scale, const Place& place, ProblemList& problems) {
     const auto wrong = [&](const std::string& wanted) {
         problems.add(json, place, "is " + std::string(json.kind()) + ", must be " + wanted);
@@ -44,6 +36,20 @@ std::optional<FieldValue> value_of(const Json& json, const FieldInfo& info, doub
     case FieldType::text:
         if (json.text()) return FieldValue{*json.text()};
         return wrong("a text");
+    case FieldType::names: {
+        if (json.text()) return FieldValue{std::vector<std::string>{*json.text()}};
+        if (!json.array()) return wrong("a list of names");
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < json.array()->size(); ++i) {
+            const Json& name = (*json.array())[i];
+            if (!name.text()) {
+                problems.add(name, place / i, "is " + std::string(name.kind()) + ", must be a name");
+                return std::nullopt;
+            }
+            names.push_back(*name.text());
+        }
+        return FieldValue{std::move(names)};
+    }
     case FieldType::choice: {
         if (!json.text()) return wrong("one of its choices as a text");
         const auto found = std::find(info.choices.begin(), info.choices.end(), *json.text());
@@ -55,7 +61,7 @@ std::optional<FieldValue> value_of(const Json& json, const FieldInfo& info, doub
     case FieldType::color:
         if (const auto grey = json.number()) return FieldValue{std::array<double, 3>{*grey, *grey, *grey}};
         if (json.text()) {
-            if (const auto color = color_of_text(*json.text())) return FieldValue{*color};
+            if (const auto color = color_of_text(*json.text())) return FieldValue{std::array<double, 3>{color->r, color->g, color->b}};
             problems.add(json, place, "'" + json.text()->substr(0, 100) + "' is no colour", "write \"#rrggbb\", [r, g, b] or one number for grey");
             return std::nullopt;
         }
@@ -102,6 +108,14 @@ ordered_json number_json(double value) {
 }
 
 }  // namespace
+
+std::optional<math::Rgb> color_of_text(const std::string& text) {
+    unsigned code = 0;
+    const auto [end, error] = std::from_chars(text.data() + std::min<std::size_t>(1, text.size()), text.data() + text.size(), code, 16);
+    if (text.size() != 7 || text[0] != '#' || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    const auto linear = [&](int shift) { return scene::srgb_decode(static_cast<float>((code >> shift) & 255) / 255.0f); };
+    return math::Rgb{linear(16), linear(8), linear(0)};
+}
 
 double short_double(float component) {
     char buffer[32];
@@ -174,6 +188,7 @@ ordered_json write_value(const FieldValue& value, const FieldInfo& info, const M
         return array;
     }
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* names = std::get_if<std::vector<std::string>>(&value)) return *names;
     if (const auto* boolean = std::get_if<bool>(&value)) return *boolean;
     const auto integer = std::get<std::int64_t>(value);
     if (info.type != FieldType::choice) return integer;
@@ -196,6 +211,11 @@ ordered_json schema_of_field(const FieldInfo& info, const FieldValue& default_va
     case FieldType::number:
     case FieldType::angle: schema["type"] = "number", limits(schema); break;
     case FieldType::text: schema["type"] = "string"; break;
+    case FieldType::names: {
+        const ordered_json name{{"type", "string"}};
+        schema["anyOf"] = {{{"type", "array"}, {"items", name}}, name};
+        break;
+    }
     case FieldType::choice: schema["enum"] = info.choices; break;
     case FieldType::vector:
         schema["type"] = "array";

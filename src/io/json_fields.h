@@ -7,6 +7,7 @@
 
 #include "base/fields.h"
 #include "io/json_text.h"
+#include "math/color.h"
 #include "scene/field_check.h"
 
 namespace crescente::io {
@@ -17,8 +18,11 @@ struct Measure {
     std::string name = "m";
 };
 
+// "#rrggbb" (sRGB) as linear colour; nothing if it is no such text.
+std::optional<math::Rgb> color_of_text(const std::string& text);
+
 // A field's value from JSON, in the field's own unit, its range checked. Colours: [r, g, b] linear, one number for grey, or "#rrggbb"
-// (sRGB). Nothing if it is wrong; then the problem is told.
+// (sRGB). Names: a list of texts, or one alone. Nothing if it is wrong; then the problem is told.
 std::optional<FieldValue> read_value(const Json& json, const FieldInfo& info, const Measure& measure, const Place& place,
                                      ProblemList& problems);
 

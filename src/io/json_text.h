@@ -89,10 +89,14 @@ public:
     const std::string& file() const { return file_; }
     Problems take();  // with one more that counts those left out
 
+    // What is not as it should be, but does no harm.
+    void warn(const Problems& warnings) { warnings_.insert(warnings_.end(), warnings.begin(), warnings.end()); }
+    const Problems& warnings() const { return warnings_; }
+
 private:
     static constexpr std::size_t limit = 500;
     std::string file_;
-    Problems problems_;
+    Problems problems_, warnings_;
     std::size_t left_out_ = 0;
 };
 

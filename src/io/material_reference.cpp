@@ -1,5 +1,6 @@
 #include "io/material_reference.h"
 
+#include <cctype>
 #include <cstdio>
 
 #include "io/scene_words.h"
@@ -24,28 +25,46 @@ On the command line: `--set material.body.library="paint blue"`, and `crescente 
 
 Metals have their measured complex index of refraction (`eta` + i `k`) at 630, 532 and 465 nm, taken between the two nearest wavelengths of the published tables; three wavelengths stand for red, green and blue, which is
 near what integrating over the spectrum with the eye's functions gives for metals, whose constants change slowly, and not the same. Finishes differ in roughness: polished 0.03 (a mirror), satin 0.25, blasted 0.5.
-A finish with a grain (brushed), visible flakes, wood and leather are not in the library. The colours of what is not a metal are chosen, not measured; absorption is in 1/m.
+Brushed and turned finishes are rougher along their grain than across (`anisotropy`, `grain`). Wood, leather, flakes and scratches are procedures at their true size, carved from a block: they need no coordinates, and what is
+finer than a pixel is averaged, flakes into a rougher lobe. A texture that is said for the same field stands in for the library's. The colours of what is not a metal are chosen, not measured; absorption is in 1/m.
+
+The pictures are by `tools/swatches`: balls of 3 cm on a foot in the studio of soft boxes, level soft.
 )";
 
+// The picture of a group's swatches, made by tools/swatches.
+std::string sheet_of(std::string group) {
+    for (char& c : group) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return group + ".jpg";
+}
+
+std::string number_text(double v) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", v);
+    return text;
+}
+
+std::string value_text(const FieldInfo& info, const FieldValue& value) {
+    if (const auto* v = std::get_if<std::array<double, 3>>(&value)) return "[" + number_text((*v)[0]) + ", " + number_text((*v)[1]) + ", " + number_text((*v)[2]) + "]";
+    if (const auto* v = std::get_if<double>(&value)) return number_text(*v);
+    if (const auto* v = std::get_if<std::int64_t>(&value)) return info.choices.at(static_cast<std::size_t>(*v));
+    return std::get<bool>(value) ? "true" : "false";
+}
+
 // What of the material is not as in a new one, in the words of scene files.
-std::string values_of(const scene::PhysicalMaterial& m) {
+std::string values_of(const scene::LibraryMaterial& of) {
     static const scene::PhysicalMaterial usual;
-    const auto number = [](double v) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.4g", v);
-        return std::string(text);
-    };
-    const auto color = [&](const math::Rgb& c) { return "[" + number(c.r) + ", " + number(c.g) + ", " + number(c.b) + "]"; };
+    const bool by_constants = !math::is_black(of.material.k);
     std::string out;
-    const auto add = [&out](const std::string& name, const std::string& value) { out += (out.empty() ? "" : ", ") + name + " " + value; };
-    if (math::is_black(m.k)) add("base_color", color(m.base_color));
-    else add("eta", color(m.eta)), add("k", color(m.k));
-    if (m.metallic != usual.metallic && math::is_black(m.k)) add("metallic", number(m.metallic));
-    add("roughness", number(m.roughness));
-    if (m.ior != usual.ior) add("ior", number(m.ior));
-    if (m.transmission != usual.transmission) add("transmission", number(m.transmission));
-    if (!math::is_black(m.attenuation)) add("attenuation", color(m.attenuation));
-    if (m.clearcoat != usual.clearcoat) add("clearcoat", number(m.clearcoat));
+    for (const auto& f : scene::PhysicalMaterial::fields()) {
+        const bool always = f.info.name == "base_color" || f.info.name == "roughness";
+        if (by_constants && (f.info.name == "base_color" || f.info.name == "metallic")) continue;
+        const FieldValue value = f.get(of.material);
+        if (always || value != f.get(usual)) out += (out.empty() ? "" : ", ") + f.info.name + " " + value_text(f.info, value);
+    }
+    for (const scene::TextureBinding& binding : of.textures) {
+        const auto& kinds = scene::Texture::fields().front().info.choices;
+        out += ", " + binding.target + " by " + kinds.at(static_cast<std::size_t>(binding.texture.kind)) + " of " + number_text(binding.texture.size * 1000) + " mm";
+    }
     return out;
 }
 
@@ -54,9 +73,9 @@ std::string values_of(const scene::PhysicalMaterial& m) {
 std::string material_reference() {
     std::string out = introduction, group;
     for (const scene::LibraryMaterial& m : scene::material_library()) {
-        if (m.group != group) out += "\n## " + m.group + "\n\n| name | | values |\n|---|---|---|\n";
+        if (m.group != group) out += "\n## " + m.group + "\n\n![" + m.group + "](images/materials/" + sheet_of(m.group) + ")\n\n| name | | values |\n|---|---|---|\n";
         group = m.group;
-        out += "| " + table_cell(m.name) + " | " + table_cell(m.note) + " | " + values_of(m.material) + " |\n";
+        out += "| " + table_cell(m.name) + " | " + table_cell(m.note) + " | " + values_of(m) + " |\n";
     }
     return out;
 }

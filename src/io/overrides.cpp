@@ -17,7 +17,7 @@ Json value_json(std::string_view text) {
 
 }  // namespace
 
-Expected<void> apply_override(scene::Scene& scene, std::string_view assignment) {
+Expected<Problems> apply_override(scene::Scene& scene, std::string_view assignment) {
     const std::string whole{assignment.substr(0, 300)};
     // Neither values nor fields have an equals sign, but names may.
     const auto equals = assignment.rfind('=');
@@ -30,7 +30,7 @@ Expected<void> apply_override(scene::Scene& scene, std::string_view assignment) 
     for (Problem& problem : error.problems) problem.place = whole;
     if (!error.problems.empty()) return tl::unexpected(std::move(error));
     apply_unchecked(draft.edits(), scene);
-    return {};
+    return problems.warnings();
 }
 
 }  // namespace crescente::io

@@ -14,6 +14,7 @@ namespace crescente::io {
 // and brackets: 0.1, 1,2,3, #ff8800, orthographic. Lengths are in scene.unit; axes are the scene's own, y up.
 // Errors (usage): any part not known, with the nearest spelling; a value of the wrong type or out of range; a camera where the scene
 // has none. The scene is then unchanged.
-Expected<void> apply_override(scene::Scene& scene, std::string_view assignment);
+// Returns warnings.
+Expected<Problems> apply_override(scene::Scene& scene, std::string_view assignment);
 
 }  // namespace crescente::io

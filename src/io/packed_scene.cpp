@@ -5,14 +5,26 @@
 namespace crescente::io {
 namespace {
 
+// All that its field table has, so that nothing is forgotten.
+template <class Archive, class Owner>
+void fields(Archive& a, Owner& owner) {
+    for (const auto& f : Owner::fields()) {
+        FieldValue content = f.get(owner);
+        std::visit([&a](auto& v) { value(a, v); }, content);
+        if (const auto* choice = std::get_if<std::int64_t>(&content); choice && !f.info.choices.empty() && !(*choice >= 0 && *choice < static_cast<std::int64_t>(f.info.choices.size()))) {
+            a.fail();
+            return;
+        }
+        f.set(owner, content);
+    }
+}
+
 template <class Archive>
 void material(Archive& a, scene::Material& v) {
-    auto& m = std::get<scene::PhysicalMaterial>(v.model);
-    value(a, v.name), value(a, m.base_color), value(a, m.metallic), value(a, m.roughness), value(a, m.emissive), value(a, m.ior);
-    value(a, m.transmission), value(a, m.attenuation), value(a, m.opacity), value(a, m.double_sided);
+    value(a, v.name), fields(a, std::get<scene::PhysicalMaterial>(v.model));
     list(a, v.textures, 8, [&](scene::TextureBinding& b) {
         scene::Texture& t = b.texture;
-        value(a, b.target), value(a, t.kind), value(a, t.channel), value(a, t.wrap_u), value(a, t.wrap_v);
+        value(a, b.target), fields(a, t);
         scene::ImageSource source;
         if (t.image) source = t.image->source();
         bool has_image = t.image != nullptr;
@@ -23,10 +35,7 @@ void material(Archive& a, scene::Material& v) {
 
 template <class Archive>
 void light(Archive& a, scene::Light& v) {
-    value(a, v.name), value(a, v.kind), value(a, v.position), value(a, v.direction), value(a, v.color), value(a, v.intensity);
-    value(a, v.inner_angle), value(a, v.outer_angle), value(a, v.gradient), value(a, v.exponent), value(a, v.falloff);
-    value(a, v.constant), value(a, v.linear), value(a, v.quadratic), value(a, v.range), value(a, v.shadows), value(a, v.highlights);
-    value(a, v.up), value(a, v.width), value(a, v.height), value(a, v.radius), value(a, v.two_sided), value(a, v.visible), value(a, v.group);
+    value(a, v.name), fields(a, v);
 }
 
 template <class Archive>

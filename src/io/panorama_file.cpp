@@ -4,10 +4,10 @@
 #include <cstring>
 #include <new>
 
-#include "base/byte_archive.h"
-#include "io/isolated.h"
+#include "io/decoded_picture.h"
 #include "io/openimageio.h"
 #include "io/text_file.h"
+#include "scene/sky.h"
 
 namespace crescente::io {
 namespace {
@@ -17,52 +17,6 @@ using scene::Pixels;
 using scene::SampleType;
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 27;
-
-// As it comes from the other process: decoded, or why not.
-struct Decoded {
-    std::string error;
-    Pixels pixels;
-};
-
-template <class Archive>
-void decoded(Archive& a, Decoded& d) {
-    value(a, d.error);
-    value(a, d.pixels.width), value(a, d.pixels.height), value(a, d.pixels.channels), value(a, d.pixels.type);
-    array(a, d.pixels.samples);
-}
-
-std::size_t sample_bytes(SampleType type) { return type == SampleType::bits8 ? 1 : type == SampleType::bits16 ? 2 : 4; }
-
-bool is_whole(const Pixels& p) {
-    if (p.width < 1 || p.height < 1 || p.channels < 1 || p.channels > 4 || p.type > SampleType::float32) return false;
-    const std::uint64_t pixels = static_cast<std::uint64_t>(p.width) * static_cast<std::uint64_t>(p.height);
-    return pixels <= most_pixels && p.samples.size() == pixels * static_cast<std::uint64_t>(p.channels) * sample_bytes(p.type);
-}
-
-Decoded decode(const std::string& bytes) {
-    IsolationLimits limits;
-    limits.memory = std::size_t{12} << 30;  // sixteen bytes for each of the most pixels, several times
-    const auto answer = run_isolated([&](const TellProgress&) {
-        Decoded one;
-        auto pixels = decode_with_openimageio(bytes, most_pixels);
-        if (pixels) one.pixels = std::move(*pixels);
-        else one.error = pixels.error().problems.front().reason;
-        ByteWriter writer;
-        decoded(writer, one);
-        return std::move(writer.bytes);
-    }, limits);
-    Decoded result;
-    if (!answer) {
-        result.error = answer.error() == IsolationFailure::unavailable ? "cannot be decoded: no process could be made for it"
-                       : answer.error() == IsolationFailure::too_long  ? "is damaged: decoding it did not come to an end"
-                                                                       : "is damaged: OpenImageIO failed on it";
-        return result;
-    }
-    ByteReader reader{*answer};
-    decoded(reader, result);
-    if (result.error.empty() && (!reader.whole || !is_whole(result.pixels))) result.error = "could not be decoded: the answer is not whole";
-    return result;
-}
 
 float linear_of(double v) { return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4)); }
 
@@ -85,6 +39,10 @@ float sample(const Pixels& p, std::size_t index) {
 Expected<ReadPanorama> made_of(const Pixels& p, const std::string& file) {
     const auto wrong = [&](std::string reason, std::string hint = {}) { return failure(ErrorKind::input, {file, {}, std::move(reason), std::move(hint)}); };
     if (p.channels == 2) return wrong("the picture has 2 channels", "what surrounds a scene is told by 1, 3 or 4: grey, RGB, or RGB and alpha");
+    constexpr int most_slender = 64;
+    if (p.width > most_slender * p.height || p.height > most_slender * p.width) {
+        return wrong("the picture of " + std::to_string(p.width) + " x " + std::to_string(p.height) + " pixels cannot surround anything", "equirectangular pictures are twice as wide as high");
+    }
     const std::size_t count = static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height), channels = static_cast<std::size_t>(p.channels);
     std::vector<Rgb> colors(count);
     std::size_t negative = 0, no_numbers = 0, first = 0;
@@ -118,7 +76,8 @@ Expected<ReadPanorama> read_panorama(const std::filesystem::path& file) {
     const auto bytes = read_whole_file(file);
     if (!bytes) return tl::unexpected(bytes.error());
     try {
-        const Decoded picture = decode(*bytes);
+        DecodedPicture picture;
+        decode_pictures({&*bytes, 1}, most_pixels, [&](std::size_t, DecodedPicture decoded) { picture = std::move(decoded); });
         if (!picture.error.empty()) return failure(ErrorKind::input, {file.string(), {}, "the picture " + picture.error, {}});
         return made_of(picture.pixels, file.string());
     } catch (const std::bad_alloc&) {
@@ -128,6 +87,10 @@ Expected<ReadPanorama> read_panorama(const std::filesystem::path& file) {
 
 Expected<Problems> load_panorama(scene::Environment& environment, const std::filesystem::path& folder) {
     environment.panorama = nullptr;
+    if (!environment.sky.empty()) {
+        if (!environment.image.empty()) return failure(ErrorKind::input, {{}, {}, "a sky and a picture cannot be together", {}});
+        return make_sky(environment).map([] { return Problems{}; });
+    }
     if (environment.image.empty()) return Problems{};
     const std::filesystem::path named = folder / environment.image;
     auto read = read_panorama(named);
@@ -139,15 +102,11 @@ Expected<Problems> load_panorama(scene::Environment& environment, const std::fil
     return std::move(read->warnings);
 }
 
-Problems load_panorama(scene::Environment& environment, const Json& json, const Place& place, ProblemList& problems) {
-    if (environment.image.find('\0') != std::string::npos) {
-        problems.add(json, place, "must be the path of a file");
-        return {};
-    }
-    auto warnings = load_panorama(environment, std::filesystem::path(problems.file()).parent_path());
-    if (warnings) return std::move(*warnings);
+void load_panorama(scene::Environment& environment, const Json& json, const Place& place, ProblemList& problems) {
+    if (environment.image.find('\0') != std::string::npos) return problems.add(json, place, "must be the path of a file");
+    const auto warnings = load_panorama(environment, std::filesystem::path(problems.file()).parent_path());
+    if (warnings) return problems.warn(*warnings);
     for (const Problem& problem : warnings.error().problems) problems.add(json, place, problem.text());
-    return {};
 }
 
 }  // namespace crescente::io

@@ -59,7 +59,7 @@ std::vector<png_text> text_chunks(std::map<std::string, std::string>& texts, std
 }
 
 // libpng leaves by longjmp: everything with a destructor belongs to the caller.
-bool encode(Sink& sink, int width, int height, int bits, const void* pixels, const std::vector<png_text>& texts) {
+bool encode(Sink& sink, int width, int height, int channels, int bits, const void* pixels, const std::vector<png_text>& texts) {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, fail, ignore);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     if (!info) {
@@ -72,7 +72,7 @@ bool encode(Sink& sink, int width, int height, int bits, const void* pixels, con
         return false;
     }
     png_set_write_fn(png, &sink, take, nullptr);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bits, channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
@@ -84,7 +84,7 @@ bool encode(Sink& sink, int width, int height, int bits, const void* pixels, con
     png_set_compression_buffer_size(png, 1 << 18);
     png_write_info(png, info);
     if (bits == 16 && std::endian::native == std::endian::little) png_set_swap(png);
-    const std::size_t stride = std::size_t(width) * 3 * std::size_t(bits / 8);
+    const std::size_t stride = std::size_t(width) * std::size_t(channels) * std::size_t(bits / 8);
     for (int y = 0; y < height; ++y) png_write_row(png, static_cast<png_const_bytep>(pixels) + stride * std::size_t(y));
     png_write_end(png, nullptr);
     png_destroy_write_struct(&png, &info);
@@ -92,25 +92,25 @@ bool encode(Sink& sink, int width, int height, int bits, const void* pixels, con
 }
 
 template <class Sample>
-Expected<std::string> encode_samples(int width, int height, std::span<const Sample> rgb, std::map<std::string, std::string> metadata) {
-    if (width < 1 || height < 1 || rgb.size() < std::size_t(width) * std::size_t(height) * 3) {
+Expected<std::string> encode_samples(int width, int height, int channels, std::span<const Sample> samples, std::map<std::string, std::string> metadata) {
+    if (width < 1 || height < 1 || (channels != 3 && channels != 4) || samples.size() < std::size_t(width) * std::size_t(height) * std::size_t(channels)) {
         return failure(ErrorKind::internal, {{}, {}, "the picture has fewer samples than its size says", {}});
     }
     Sink sink;
     std::vector<std::string> keys;
     const auto texts = text_chunks(metadata, keys);
-    if (encode(sink, width, height, int(8 * sizeof(Sample)), rgb.data(), texts)) return std::move(sink.bytes);
+    if (encode(sink, width, height, channels, int(8 * sizeof(Sample)), samples.data(), texts)) return std::move(sink.bytes);
     return failure(ErrorKind::resource, {{}, {}, "PNG: " + (sink.out_of_memory ? "out of memory" : sink.error), {}});
 }
 
 }  // namespace
 
-Expected<std::string> encode_png(int width, int height, std::span<const std::uint8_t> rgb, const std::map<std::string, std::string>& metadata) {
-    return encode_samples(width, height, rgb, metadata);
+Expected<std::string> encode_png(int width, int height, int channels, std::span<const std::uint8_t> samples, const std::map<std::string, std::string>& metadata) {
+    return encode_samples(width, height, channels, samples, metadata);
 }
 
-Expected<std::string> encode_png(int width, int height, std::span<const std::uint16_t> rgb, const std::map<std::string, std::string>& metadata) {
-    return encode_samples(width, height, rgb, metadata);
+Expected<std::string> encode_png(int width, int height, int channels, std::span<const std::uint16_t> samples, const std::map<std::string, std::string>& metadata) {
+    return encode_samples(width, height, channels, samples, metadata);
 }
 
 }  // namespace crescente::io

@@ -96,6 +96,7 @@ public:
         Roots roots;
         if (const auto json = parse_json(text, problems_)) roots = read_document(*json);
         for (Problem& problem : problems_.take()) loading_.problems.push_back(std::move(problem));
+        for (const Problem& warning : problems_.warnings()) loading_.loaded.warnings.push_back(warning);
         return roots;
     }
 
@@ -191,8 +192,9 @@ private:
             scene::Environment read;
             read_fields(*environment, read, scene::Environment::fields(), measure_, top / "environment", problems_);
             if (outermost()) {
-                const Json* image = environment->find("image");
-                if (image) append(load_panorama(read, *image, top / "environment" / "image", problems_));
+                for (const char* from : {"image", "sky"}) {
+                    if (const Json* named = environment->find(from)) load_panorama(read, *named, top / "environment" / from, problems_);
+                }
                 scene().environment = read;
             }
         }
@@ -298,10 +300,6 @@ private:
         }
         for (auto& root : from.roots) root.value += nodes;
         return std::move(from.roots);
-    }
-
-    void append(const Problems& warnings) {
-        for (const Problem& warning : warnings) loading_.loaded.warnings.push_back(warning);
     }
 
     void take_problems(const Error& error) {

@@ -5,7 +5,6 @@
 #include "base/spelling.h"
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
-#include "scene/material_library.h"
 #include "io/texture_parts.h"
 
 namespace crescente::io {
@@ -271,12 +270,12 @@ std::optional<Shape> read_shape(const Json& json, const Measure& measure, const 
     return shape;
 }
 
-std::optional<scene::PhysicalMaterial> read_library_material(const Json& json, const Place& place, ProblemList& problems) {
-    if (!json.text()) return must_be(json, place, "a text", problems), std::nullopt;
-    if (const scene::LibraryMaterial* found = scene::find_in_library(*json.text())) return found->material;
+const scene::LibraryMaterial* read_library_material(const Json& json, const Place& place, ProblemList& problems) {
+    if (!json.text()) return must_be(json, place, "a text", problems), nullptr;
+    if (const scene::LibraryMaterial* found = scene::find_in_library(*json.text())) return found;
     const std::string hint = spelling_hint(*json.text(), scene::library_names());
     problems.add(json, place, "there is no material '" + json.text()->substr(0, 100) + "' in the library", hint.empty() ? "see crescente materials" : hint);
-    return std::nullopt;
+    return nullptr;
 }
 
 scene::Material read_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems) {
@@ -291,16 +290,23 @@ scene::Material read_material(const Json& json, const Measure& measure, const Pl
             return material;  // its fields would all be unknown to the wrong model
         }
     }
+    const scene::LibraryMaterial* found = nullptr;
     if (const Json* library = json.find(own[2])) {
-        const auto found = read_library_material(*library, place / own[2], problems);
+        found = read_library_material(*library, place / own[2], problems);
         auto* physical = std::get_if<scene::PhysicalMaterial>(&material.model);
         if (!physical) problems.add(*library, place / own[2], "a classic material is not in the library");
-        else if (found) *physical = *found;
+        else if (found) *physical = found->material;
     }
     std::visit([&](auto& m) {
         read_fields(json, m, std::remove_cvref_t<decltype(m)>::fields(), measure, place, problems, own);
     }, material.model);
     if (const Json* textures = json.find(own[3])) read_textures(*textures, material, measure, place / own[3], problems);
+    if (found && std::holds_alternative<scene::PhysicalMaterial>(material.model)) {  // textures that are said stand in for the library's
+        const std::vector<scene::TextureBinding> said = material.textures;
+        for (const scene::TextureBinding& binding : found->textures) {
+            if (std::none_of(said.begin(), said.end(), [&](const auto& one) { return one.target == binding.target; })) material.textures.push_back(binding);
+        }
+    }
     return material;
 }
 

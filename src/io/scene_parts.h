@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/json_fields.h"
+#include "scene/material_library.h"
 #include "scene/scene.h"
 
 namespace crescente::io {
@@ -9,8 +10,8 @@ namespace crescente::io {
 // {"sphere": {"radius": 1}}. Nothing if the kind is wrong; wrong fields are told and left at their defaults.
 std::optional<geometry::Shape> read_shape(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
 
-// The name of a material in the library.
-std::optional<scene::PhysicalMaterial> read_library_material(const Json& json, const Place& place, ProblemList& problems);
+// The material of the library that is named; null, told: there is none.
+const scene::LibraryMaterial* read_library_material(const Json& json, const Place& place, ProblemList& problems);
 
 // {"model": "classic", ...} or {"library": "gold satin", ...}. The name is the caller's.
 scene::Material read_material(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);

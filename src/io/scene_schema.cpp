@@ -157,6 +157,7 @@ std::string type_text(const FieldInfo& info) {
     case FieldType::number: return "number";
     case FieldType::angle: return "angle";
     case FieldType::text: return "text";
+    case FieldType::names: return "names";
     case FieldType::vector: return "vector";
     case FieldType::color: return "colour";
     case FieldType::choice: {
@@ -169,7 +170,7 @@ std::string type_text(const FieldInfo& info) {
 }
 
 std::string range_text(const FieldInfo& info) {
-    if (info.type == FieldType::boolean || info.type == FieldType::choice || info.type == FieldType::text) return {};
+    if (info.type == FieldType::boolean || info.type == FieldType::choice || info.type == FieldType::text || info.type == FieldType::names) return {};
     if (info.minimum == -unbounded && info.maximum == unbounded) return {};
     if (info.maximum == unbounded) return "≥ " + scene::number_text(info.minimum);
     if (info.minimum == -unbounded) return "≤ " + scene::number_text(info.maximum);

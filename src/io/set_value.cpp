@@ -43,7 +43,7 @@ public:
         }
         if (path_.what == "environment") {
             if (!draft_.environment) draft_.environment.emplace();
-            if (set_single(*draft_.environment) && path_.field == "image") load_panorama(*draft_.environment, value_, place_, problems_);
+            if (set_single(*draft_.environment) && (path_.field == "image" || path_.field == "sky")) load_panorama(*draft_.environment, value_, place_, problems_);
             return;
         }
         const std::vector<std::string> known{"settings", "camera", "environment", "light", "material", "shape"};
@@ -73,9 +73,9 @@ private:
     }
     bool set_in(scene::Material& material) {
         if (path_.field == library_word().name) {
-            const auto found = read_library_material(value_, place_, problems_);
-            if (found) material.model = *found;
-            return found.has_value();
+            const scene::LibraryMaterial* found = read_library_material(value_, place_, problems_);
+            if (found) material.model = found->material, material.textures = found->textures;
+            return found != nullptr;
         }
         return std::visit([&](auto& model) { return set_field(model); }, material.model);
     }

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
+#include <set>
 
-#include "base/byte_archive.h"
 #include "base/checksum.h"
-#include "io/isolated.h"
+#include "io/decoded_picture.h"
 #include "io/openimageio.h"
 #include "io/text_file.h"
 
@@ -29,71 +30,6 @@ bool shows_color(const scene::Material& material, const scene::TextureBinding& b
     }
     const FieldInfo* field = scene::textured_field(material, binding.target);
     return field && field->type == FieldType::color;
-}
-
-// A picture as it comes from the other process: decoded, or why not.
-struct Decoded {
-    std::string error;
-    Pixels pixels;
-};
-
-template <class Archive>
-void decoded(Archive& a, Decoded& d) {
-    value(a, d.error);
-    value(a, d.pixels.width), value(a, d.pixels.height), value(a, d.pixels.channels), value(a, d.pixels.type);
-    array(a, d.pixels.samples);
-}
-
-bool is_whole(const Pixels& p) {
-    if (p.width < 1 || p.height < 1 || p.channels < 1 || p.channels > 4 || p.type > SampleType::float32) return false;
-    const std::uint64_t pixels = static_cast<std::uint64_t>(p.width) * static_cast<std::uint64_t>(p.height);
-    const std::uint64_t bytes = p.type == SampleType::bits8 ? 1 : p.type == SampleType::bits16 ? 2 : 4;
-    return pixels <= most_pixels && p.samples.size() == pixels * static_cast<std::uint64_t>(p.channels) * bytes;
-}
-
-// Decodes some pictures in one process. What one of them does to it is told of that one; those after it are decoded in another.
-void decode_all(std::span<const std::string> encoded, std::span<Decoded> results) {
-    std::size_t first = 0;
-    while (first < encoded.size()) {
-        std::size_t begun = first;
-        IsolationLimits limits;
-        limits.memory = std::size_t{12} << 30;  // sixteen bytes for each of the most pixels, several times
-        IsolationWatch watch;
-        watch.progress = [&](double, std::string_view) { ++begun; };
-        constexpr std::size_t bunch_bytes = std::size_t{1} << 28;  // decoded, about, before another process begins
-        const auto answer = run_isolated([&](const TellProgress& tell) {
-            ByteWriter writer;
-            for (std::size_t i = first; i < encoded.size() && (i == first || writer.bytes.size() < bunch_bytes); ++i) {
-                tell(0, "");
-                Decoded one;
-                auto pixels = decode_with_openimageio(encoded[i], most_pixels);
-                if (pixels) one.pixels = std::move(*pixels);
-                else one.error = pixels.error().problems.front().reason;
-                decoded(writer, one);
-            }
-            return std::move(writer.bytes);
-        }, limits, watch);
-        if (!answer) {
-            // What was decoded before it is lost with the process, and decoded again.
-            const std::size_t culprit = std::max(begun, first + 1) - 1;
-            if (answer.error() == IsolationFailure::unavailable) {
-                for (std::size_t i = first; i < encoded.size(); ++i) results[i].error = "no process could be made to decode it";
-                return;
-            }
-            decode_all(encoded.subspan(first, culprit - first), results.subspan(first, culprit - first));
-            results[culprit].error = answer.error() == IsolationFailure::too_long ? "is damaged: decoding it did not come to an end" : "is damaged: OpenImageIO failed on it";
-            first = culprit + 1;
-            continue;
-        }
-        ByteReader reader{*answer};
-        const std::size_t before = first;
-        while (reader.whole && !reader.bytes.empty() && first < encoded.size()) {
-            Decoded& one = results[first++];
-            decoded(reader, one);
-            if (!reader.whole || (one.error.empty() && !is_whole(one.pixels))) one.error = "could not be decoded: the answer is not whole";
-        }
-        if (first == before) results[first++].error = "could not be decoded: there was no answer";
-    }
 }
 
 // Samples that are no numbers become 0; how many.
@@ -169,63 +105,68 @@ Expected<Problems> load_textures(std::span<scene::Material> materials, const std
         return warnings;
     }
     std::size_t used = 0;
+    std::set<const TextureImage*> there;  // each once, however many textures show it
     for (const scene::Material& material : materials) {
-        for (const scene::TextureBinding& binding : material.textures) used += binding.texture.image ? binding.texture.image->bytes() : 0;
+        for (const scene::TextureBinding& binding : material.textures) {
+            if (binding.texture.image && there.insert(binding.texture.image.get()).second) used += binding.texture.image->bytes();
+        }
     }
     const auto place_of = [&](const scene::ImageSource& source) {
         return source.file.empty() ? std::pair{scene_file, source.place} : std::pair{source.file, std::string{}};
     };
-    constexpr std::size_t at_once = 16;  // so that not all encoded files are in memory at a time
-    for (std::size_t first = 0; first < wanted.size(); first += at_once) {
-        const std::size_t count = std::min(at_once, wanted.size() - first);
+    const auto place_picture = [&](const Wanted& one, DecodedPicture result) {
+        const scene::ImageSource& source = one.image->source();
+        const auto [file, place] = place_of(source);
+        Pixels pixels = std::move(result.pixels);
+        if (!result.error.empty()) {
+            Problem problem{file, place, "the picture of a texture " + result.error, {}};
+            if (!source.file.empty() && !source.place.empty()) problem.hint = "named in " + scene_file + " at " + source.place;
+            if (!options.pattern) {
+                problems.push_back(std::move(problem));
+                return;
+            }
+            problem.reason += ": a pattern stands in";
+            warnings.push_back(std::move(problem));
+            pixels = missing_pattern();
+        }
+        if (const std::size_t wrong = make_finite(pixels)) {
+            warnings.push_back({file, place, std::to_string(wrong) + " samples of the picture of a texture are no finite numbers: 0 is taken", {}});
+        }
+        int coarser = 0;
+        const auto bytes_when = [&](int halved) { return pyramid_bytes(std::max(1, pixels.width >> halved), std::max(1, pixels.height >> halved), pixels.channels, pixels.type) * (halved > 0 ? 2 : 1); };
+        while (used + bytes_when(coarser) > options.memory && (pixels.width >> coarser > 1 || pixels.height >> coarser > 1)) ++coarser;
+        if (coarser > 0) {
+            warnings.push_back({file, place, "the picture of a texture is shown at 1/" + std::to_string(1 << coarser) + " of its size: all pictures together may take " +
+                                                 std::to_string(options.memory >> 20) + " MB", {}});
+        }
+        auto image = std::make_shared<const TextureImage>(scene::ImageSource{source}, std::move(pixels), one.srgb, coarser);
+        used += image->bytes();
+        for (ImagePointer* shown : one.shown_by) *shown = image;
+    };
+
+    // Encoded pictures too are in memory a few at a time.
+    constexpr std::size_t at_once = 16, encoded_bytes = std::size_t{1} << 28;
+    for (std::size_t first = 0; first < wanted.size();) {
         std::vector<std::string> encoded;
         std::vector<std::size_t> which;
-        std::vector<Decoded> results(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const scene::ImageSource& source = wanted[first + i].image->source();
+        std::size_t next = first, bytes_read = 0;
+        for (; next < wanted.size() && next - first < at_once && bytes_read < encoded_bytes; ++next) {
+            const scene::ImageSource& source = wanted[next].image->source();
+            DecodedPicture unread;
             if (source.file.empty()) {
                 encoded.push_back(source.bytes);
             } else if (auto bytes = read_whole_file(source.file)) {
                 encoded.push_back(std::move(*bytes));
             } else {
-                results[i].error = bytes.error().problems.front().reason;
+                unread.error = bytes.error().problems.front().reason;
+                place_picture(wanted[next], std::move(unread));
                 continue;
             }
-            which.push_back(i);
+            which.push_back(next);
+            bytes_read += encoded.back().size();
         }
-        std::vector<Decoded> answers(which.size());
-        decode_all(encoded, answers);
-        for (std::size_t k = 0; k < which.size(); ++k) results[which[k]] = std::move(answers[k]);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Wanted& one = wanted[first + i];
-            const scene::ImageSource& source = one.image->source();
-            const auto [file, place] = place_of(source);
-            Pixels pixels = std::move(results[i].pixels);
-            if (!results[i].error.empty()) {
-                Problem problem{file, place, "the picture of a texture " + results[i].error, {}};
-                if (!source.file.empty() && !source.place.empty()) problem.hint = "named in " + scene_file + " at " + source.place;
-                if (!options.pattern) {
-                    problems.push_back(std::move(problem));
-                    continue;
-                }
-                problem.reason += ": a pattern stands in";
-                warnings.push_back(std::move(problem));
-                pixels = missing_pattern();
-            }
-            if (const std::size_t wrong = make_finite(pixels)) {
-                warnings.push_back({file, place, std::to_string(wrong) + " samples of the picture of a texture are no finite numbers: 0 is taken", {}});
-            }
-            int coarser = 0;
-            const auto bytes_when = [&](int halved) { return pyramid_bytes(std::max(1, pixels.width >> halved), std::max(1, pixels.height >> halved), pixels.channels, pixels.type) * (halved > 0 ? 2 : 1); };
-            while (used + bytes_when(coarser) > options.memory && (pixels.width >> coarser > 1 || pixels.height >> coarser > 1)) ++coarser;
-            if (coarser > 0) {
-                warnings.push_back({file, place, "the picture of a texture is shown at 1/" + std::to_string(1 << coarser) + " of its size: all pictures together may take " +
-                                                     std::to_string(options.memory >> 20) + " MB", {}});
-            }
-            auto image = std::make_shared<const TextureImage>(scene::ImageSource{source}, std::move(pixels), one.srgb, coarser);
-            used += image->bytes();
-            for (ImagePointer* shown : one.shown_by) *shown = image;
-        }
+        decode_pictures(encoded, most_pixels, [&](std::size_t i, DecodedPicture one) { place_picture(wanted[which[i]], std::move(one)); });
+        first = next;
     }
     if (!problems.empty()) return tl::unexpected(Error{ErrorKind::input, std::move(problems)});
     return warnings;

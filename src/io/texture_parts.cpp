@@ -30,7 +30,7 @@ scene::Texture read_texture(const Json& json, const Measure& measure, const Plac
     read_fields(json, texture, scene::Texture::fields(), measure, place, problems, own);
     const Json* image = json.find("image");
     if (image) texture.image = read_image(*image, place / "image", problems);
-    else if (json.object() && texture.kind == scene::TextureKind::image) problems.add(json, place, "'image' is missing", "or another kind: checker, noise, brushed, wood");
+    else if (json.object() && texture.kind == scene::TextureKind::image) problems.add(json, place, "'image' is missing", "or another kind: checker, noise, brushed, wood, leather, flakes");
     if (image && texture.kind != scene::TextureKind::image) problems.add(json, place, "has a picture, which its kind does not show");
     return texture;
 }

@@ -2,6 +2,7 @@
 
 #include "render/microfacets.h"
 #include "render/physical_view.h"
+#include "render/sheen.h"
 
 namespace crescente::render {
 namespace {
@@ -13,10 +14,16 @@ double mean(Rgb c) { return (double(c.r) + c.g + c.b) / 3; }
 double power(double base, double exponent) { return exponent == 0 ? 1 : std::pow(std::max(0.0, base), exponent); }
 
 // The lobes that a direction is drawn from, in the order in which the first number chooses.
-enum Lobe : std::uint8_t { diffuse, rough, coated, multiple, glass_multiple, through, highlight, mirror, refraction, straight, lobe_count };
+enum Lobe : std::uint8_t { diffuse, rough, fibres, coated, multiple, glass_multiple, through, highlight, mirror, refraction, straight, lobe_count };
 
 // What becomes of perfectly smooth lobes: nothing, rays, or highlights of the smallest size.
 enum class SmoothAs : std::uint8_t { nothing, rays, highlights };
+
+Smooth smooth_facets(const Lobes& lobes) {
+    if (!lobes.layered()) return {true, true};
+    const bool smooth = lobes.smooth();
+    return {smooth || (lobes.coat > 0 && lobes.coat_is_smooth()), smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < bends};
+}
 
 class Scattering {
 public:
@@ -32,23 +39,30 @@ private:
         double chance_reflected;
     };
     FacetColors facet(double cosine) const;
-    Vec3 local(Vec3 w) const { return {dot(t_, w), dot(b_, w), dot(facing_.shading, w)}; }
-    Vec3 world(Vec3 w) const { return t_ * w.x + b_ * w.y + facing_.shading * w.z; }
+    struct Frame {
+        Vec3 x, y, z;
+        Vec3 local(Vec3 w) const { return {dot(x, w), dot(y, w), dot(z, w)}; }
+        Vec3 world(Vec3 w) const { return x * w.x + y * w.y + z * w.z; }
+    };
+    Vec3 local(Vec3 w) const { return frame_.local(w); }
+    SplitSum sums_at(Vec3 w) const;  // on the outer side, or as if
     bool allows(Vec3 to_light, bool crosses) const { return (dot(facing_.shading, to_light) < 0) == crosses && (dot(facing_.geometric, to_light) < 0) == crosses; }
-    double layer_over_diffuse(double cosine) const;
+    double layer_over_diffuse(Vec3 w) const;
     double missing_in_glass(double cosine, std::size_t side) const;
     std::optional<Vec3> draw(Lobe lobe, std::array<double, 3> u) const;
     std::optional<ScatterSample> ray(Lobe lobe) const;
     void add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const;
     void add_facets(Vec3 l, Scattered& sum) const;
-    void add_multiple(double cosine, Scattered& sum) const;
-    void under_coat(Vec3 l, Scattered& sum) const;
+    void add_multiple(Vec3 l, Scattered& sum) const;
+    void under_sheen(Vec3 l, Scattered& sum) const;
+    void under_coat(Vec3 l, Vec3 to_light, Scattered& sum) const;
     void add_highlight(Vec3 l, Scattered& sum) const;
     double highlight_scale() const;
 
     const Lobes& lobes_;
     const Facing& facing_;
-    Vec3 viewer_, t_, b_, v_;
+    Frame frame_, coat_frame_;
+    Vec3 viewer_, v_, coat_v_;
     double eta_;        // index behind over index in front
     std::size_t side_;  // of a glass: that of the viewer, outer or inner
     Smooth smooth_;
@@ -59,22 +73,29 @@ private:
 };
 
 Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, SmoothAs smooth_as)
-    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), side_(facing.inside), smooth_(smooth_lobes(lobes)), facets_{lobes.alpha, lobes.alpha}, coat_facets_{lobes.coat_alpha, lobes.coat_alpha} {
-    const Vec3 along = facing.tangent - facing.shading * dot(facing.tangent, facing.shading);
+    : lobes_(lobes), facing_(facing), viewer_(to_viewer), eta_(facing.inside ? 1 / lobes.ior : lobes.ior), side_(facing.inside), smooth_(smooth_facets(lobes)), facets_{lobes.alpha_along, lobes.alpha}, coat_facets_{lobes.coat_alpha, lobes.coat_alpha} {
+    const Vec3 along = lobes.tangent - facing.shading * dot(lobes.tangent, facing.shading);
     const double size = length(along);
-    t_ = size > 1e-9 ? along / size : perpendicular(facing.shading);
-    b_ = cross(facing.shading, t_);
+    const Vec3 tangent = size > 1e-9 ? along / size : perpendicular(facing.shading);
+    frame_ = {tangent, cross(facing.shading, tangent), facing.shading};
     v_ = local(to_viewer);
     if (!seen()) return;
     v_.z = std::min(v_.z, 1.0);
+    coat_frame_ = frame_, coat_v_ = v_;
+    if (lobes.coat_normal != Vec3{}) {
+        const Vec3 any = perpendicular(lobes.coat_normal);
+        coat_frame_ = {any, cross(lobes.coat_normal, any), lobes.coat_normal};
+        coat_v_ = coat_frame_.local(to_viewer);
+        coat_v_.z = std::clamp(coat_v_.z, 1e-4, 1.0);
+    }
     mirror_base_ = lobes.smooth() && smooth_as != SmoothAs::highlights;
     mirror_coat_ = lobes.coat_is_smooth() && smooth_as != SmoothAs::highlights;
-    rays_ = smooth_weights(lobes, v_.z, facing.inside);
+    rays_ = smooth_weights(lobes, v_.z, coat_v_.z, facing.inside);
 
     double weights[lobe_count] = {};
-    weights[diffuse] = lobes.layered() ? mean(lobes.diffuse) * pi * (1 - layer_over_diffuse(v_.z)) : mean(lobes.diffuse);
+    weights[diffuse] = lobes.layered() ? mean(lobes.diffuse) * pi * (1 - layer_over_diffuse(v_)) : mean(lobes.diffuse);
     if (lobes.layered() && !mirror_base_) {
-        const SplitSum sum = split_sum(lobes.sums, v_.z);
+        const SplitSum sum = sums_at(v_);
         weights[multiple] = mean(lobes.multiple) * sum.missing();
         weights[rough] = mean(lobes.highlight) * sum.scale + double(lobes.coverage) * sum.bias;
     }
@@ -87,8 +108,13 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
             weights[through] = mean(lobes.refraction) * missing * crosses;
         }
     }
+    if (lobes.has_sheen() && !facing.inside) {
+        const double kept = sheen_reflectance(lobes, v_.z);
+        for (double& weight : weights) weight *= 1 - kept;
+        weights[fibres] = kept;
+    }
     if (lobes.coat > 0 && !facing.inside) {
-        const double kept = coat_reflectance(lobes, v_.z);
+        const double kept = coat_reflectance(lobes, coat_v_.z);
         for (double& weight : weights) weight *= 1 - kept;
         if (!mirror_coat_) weights[coated] = kept;
     }
@@ -96,6 +122,7 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
         const double most = lobes.highlight_lobe == HighlightLobe::phong ? 2 : 8;
         weights[highlight] = mean(lobes.highlight) * std::min(1.0, most / (lobes.exponent + 1));
     }
+    if (smooth_as == SmoothAs::nothing && disperses(lobes)) weights[refraction] = mean(rays_.refracted);
     if (smooth_as == SmoothAs::rays) weights[mirror] = mean(rays_.reflected), weights[refraction] = mean(rays_.refracted), weights[straight] = mean(lobes.straight);
     double sum = 0;
     for (const double w : weights) sum += w;
@@ -106,11 +133,11 @@ Scattering::FacetColors Scattering::facet(double cosine) const {
     const auto grazing = static_cast<float>(fifth_power(1 - cosine));
     FacetColors f;
     if (lobes_.transmits()) {
-        const double fresnel = fresnel_dielectric(cosine, eta_);
-        f.reflected = lobes_.mirror * static_cast<float>(fresnel) + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing + conductor_beyond_schlick(lobes_, cosine);
-        if (!smooth_.refracts) f.transmitted = lobes_.refraction * static_cast<float>(1 - fresnel);
+        const Interface through = glass_interface(lobes_, cosine, eta_);
+        f.reflected = lobes_.mirror * through.reflected + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing + beyond_schlick(lobes_, cosine);
+        if (!smooth_.refracts) f.transmitted = lobes_.refraction * through.through;
     } else {
-        f.reflected = lobes_.highlight + (gray(lobes_.coverage) - lobes_.highlight) * grazing + conductor_beyond_schlick(lobes_, cosine);
+        f.reflected = lobes_.highlight + (gray(lobes_.coverage) - lobes_.highlight) * grazing + beyond_schlick(lobes_, cosine);
     }
     const double r = mean(f.reflected), t = mean(f.transmitted);
     f.chance_reflected = t == 0 ? 1 : r / (r + t);
@@ -118,11 +145,24 @@ Scattering::FacetColors Scattering::facet(double cosine) const {
 }
 
 // What of the light at this cosine does not reach the diffuse lobe, since it is reflected before.
-double Scattering::layer_over_diffuse(double cosine) const {
+double Scattering::layer_over_diffuse(Vec3 w) const {
     if (is_black(lobes_.diffuse)) return 0;
-    if (!lobes_.transmits()) return layer_at(lobes_, std::clamp(cosine, 1e-4, 1.0)).kept;
-    if (smooth_.refracts) return fresnel_dielectric(std::min(cosine, 1.0), eta_);
-    return split_sum(lobes_.glass.sums[side_], cosine).scale + missing_in_glass(cosine, side_) * (1 - lobes_.glass.through[side_]);
+    if (!lobes_.transmits()) {
+        if (!lobes_.grained()) return layer_at(lobes_, std::clamp(w.z, 1e-4, 1.0)).kept;
+        const SplitSum sum = sums_at(w);
+        return double(sum.scale) * lobes_.layer_f0 + double(sum.bias) * lobes_.layer_f90;
+    }
+    if (smooth_.refracts || lobes_.glass.density[side_] == 0) return max_component(glass_interface(lobes_, std::min(w.z, 1.0), eta_).reflected);
+    return split_sum(lobes_.glass.sums[side_], w.z).scale + missing_in_glass(w.z, side_) * (1 - lobes_.glass.through[side_]);
+}
+
+SplitSum Scattering::sums_at(Vec3 w) const {
+    SplitSum sum = split_sum(lobes_.sums, std::clamp(w.z, 1e-4, 1.0));
+    const double x2 = w.x * w.x, y2 = w.y * w.y;
+    if (!lobes_.grained() || x2 + y2 == 0) return sum;
+    const SplitSum lean = split_sum(lobes_.lean, std::clamp(w.z, 1e-4, 1.0));
+    const auto turned = static_cast<float>((x2 - y2) / (x2 + y2));  // cosine of twice the azimuth
+    return {sum.scale + lean.scale * turned, sum.bias + lean.bias * turned};
 }
 
 double Scattering::missing_in_glass(double cosine, std::size_t side) const {
@@ -144,8 +184,9 @@ Scattered Scattering::toward(Vec3 to_light) const {
     const Vec3 l = local(to_light);
     if (!crosses) add_diffuse(l, to_light, sum), add_highlight(l, sum);
     add_facets(l, sum);
-    add_multiple(l.z, sum);
-    if (lobes_.coat > 0) under_coat(l, sum);
+    add_multiple(l, sum);
+    if (lobes_.has_sheen()) under_sheen(l, sum);
+    if (lobes_.coat > 0) under_coat(l, to_light, sum);
     return sum;
 }
 
@@ -158,8 +199,8 @@ void Scattering::add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const {
     }
     double radiance[3];
     PhysicalView<double> view = physical_view(lobes_, v_.z);
-    view.layer.kept = layer_over_diffuse(v_.z);
-    reflect_physical(view, l.z, dot(viewer_, to_light), LayerAt<double>{layer_over_diffuse(l.z), 0}, false, radiance);
+    view.layer.kept = layer_over_diffuse(v_);
+    reflect_physical(view, l.z, dot(viewer_, to_light), LayerAt<double>{layer_over_diffuse(l), 0}, false, radiance);
     sum.diffuse = {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
 }
 
@@ -185,10 +226,11 @@ void Scattering::add_facets(Vec3 l, Scattered& sum) const {
     }
 }
 
-void Scattering::add_multiple(double cosine, Scattered& sum) const {
+void Scattering::add_multiple(Vec3 l, Scattered& sum) const {
+    const double cosine = l.z;
     const RoughGlass& glass = lobes_.glass;
     if (cosine > 0 && chances_[multiple] > 0) {
-        sum.glossy += lobes_.multiple * static_cast<float>(layer_at(lobes_, v_.z).missing * layer_at(lobes_, cosine).missing * lobes_.multiple_density * cosine);
+        sum.glossy += lobes_.multiple * static_cast<float>(sums_at(v_).missing() * sums_at(l).missing() * lobes_.multiple_density * cosine);
         sum.pdf += chances_[multiple] * density_of_cosine(lobes_.multiple_cells, cosine);
     }
     if (cosine > 0 && chances_[glass_multiple] > 0) {
@@ -205,16 +247,30 @@ void Scattering::add_multiple(double cosine, Scattered& sum) const {
 }
 
 // The coat takes what it reflects, and no more reaches what is below than that leaves, seen from either end; it adds its own reflection.
-void Scattering::under_coat(Vec3 l, Scattered& sum) const {
-    double kept = facing_.inside ? 0 : coat_reflectance(lobes_, v_.z);
-    if (facing_.inside == (l.z < 0)) kept = std::max(kept, coat_reflectance(lobes_, std::min(1.0, std::abs(l.z))));
+void Scattering::under_coat(Vec3 l, Vec3 to_light, Scattered& sum) const {
+    const Vec3 coat_l = lobes_.coat_normal == Vec3{} ? l : coat_frame_.local(to_light);
+    double kept = facing_.inside ? 0 : coat_reflectance(lobes_, coat_v_.z);
+    if (facing_.inside == (l.z < 0)) kept = std::max(kept, coat_reflectance(lobes_, std::min(1.0, std::abs(coat_l.z))));
     const auto below = static_cast<float>(1 - kept);
     sum.diffuse *= gray(below), sum.glossy *= gray(below);
-    if (chances_[coated] == 0 || l.z <= 0) return;
-    const Vec3 h = normalize(v_ + l);
-    const double v_h = std::clamp(dot(v_, h), 1e-12, 1.0), lobe = coat_facets_.density(h) * coat_facets_.seen_by_both(v_, l) / (4 * v_.z);
+    if (chances_[coated] == 0 || l.z <= 0 || coat_l.z <= 0) return;
+    const Vec3 h = normalize(coat_v_ + coat_l);
+    const double v_h = std::clamp(dot(coat_v_, h), 1e-12, 1.0), lobe = coat_facets_.density(h) * coat_facets_.seen_by_both(coat_v_, coat_l) / (4 * coat_v_.z);
     sum.glossy += schlick(gray(coat_f0), 1, v_h) * static_cast<float>(lobes_.coat * lobe);
-    sum.pdf += chances_[coated] * coat_facets_.density_seen(v_, h) / (4 * v_h);
+    sum.pdf += chances_[coated] * coat_facets_.density_seen(coat_v_, h) / (4 * v_h);
+}
+
+// Likewise the fibres of cloth (albedo scaling, as KHR_materials_sheen has it). Their directions are drawn evenly.
+void Scattering::under_sheen(Vec3 l, Scattered& sum) const {
+    double kept = facing_.inside ? 0 : sheen_reflectance(lobes_, v_.z);
+    if (facing_.inside == (l.z < 0)) kept = std::max(kept, sheen_reflectance(lobes_, std::min(1.0, std::abs(l.z))));
+    const auto below = static_cast<float>(1 - kept);
+    sum.diffuse *= gray(below), sum.glossy *= gray(below);
+    if (chances_[fibres] == 0 || l.z <= 0) return;
+    const double held = sheen_held(sheen_sum(lobes_.sheen_sums, v_.z)) * sheen_held(sheen_sum(lobes_.sheen_sums, l.z));
+    const double n_h = (v_.z + l.z) / std::sqrt(std::max(1e-12, 2 + 2 * dot(v_, l)));
+    sum.glossy += lobes_.sheen * static_cast<float>(held * sheen_reflected(lobes_.sheen_alpha, v_.z, l.z, std::min(1.0, n_h)));
+    sum.pdf += chances_[fibres] / (2 * pi);
 }
 
 void Scattering::add_highlight(Vec3 l, Scattered& sum) const {
@@ -234,31 +290,35 @@ void Scattering::add_highlight(Vec3 l, Scattered& sum) const {
     }
 }
 
-// A direction drawn from a lobe that is not smooth, in the surface's frame; u[0] is what the choice of the lobe left of it.
+// A direction drawn from a lobe that is not smooth, in the surface's frame, or that of its coat; u[0] is what the choice of the lobe left of it.
 std::optional<Vec3> Scattering::draw(Lobe lobe, std::array<double, 3> u) const {
     const double phi = 2 * pi * u[1];
     const auto about_z = [phi](double z) {
         const double r = std::sqrt(std::max(0.0, 1 - z * z));
         return Vec3{r * std::cos(phi), r * std::sin(phi), z};
     };
-    const auto mirrored_in = [this](Vec3 h) { return h * (2 * dot(v_, h)) - v_; };
+    const auto mirrored_in = [](Vec3 v, Vec3 h) { return h * (2 * dot(v, h)) - v; };
     const auto above = [](Vec3 l) { return l.z > 0 ? std::optional(l) : std::nullopt; };
     if (lobe == diffuse) return about_z(std::sqrt(1 - u[2]));
+    if (lobe == fibres) return about_z(1 - u[2]);
     if (lobe == multiple) return about_z(draw_cosine(lobes_.multiple_cells, u[2]));
     if (lobe == glass_multiple) return about_z(draw_cosine(lobes_.glass.cells[side_], u[2]));
     if (lobe == through) return -about_z(draw_cosine(lobes_.glass.cells[1 - side_], u[2]));
     if (lobe == highlight) {
         const Vec3 drawn = about_z(std::pow(1 - u[2], 1.0 / (lobes_.exponent + 1)));
-        if (lobes_.highlight_lobe == HighlightLobe::blinn) return dot(v_, drawn) > 0 ? above(mirrored_in(drawn)) : std::nullopt;
+        if (lobes_.highlight_lobe == HighlightLobe::blinn) return dot(v_, drawn) > 0 ? above(mirrored_in(v_, drawn)) : std::nullopt;
         const Vec3 axis{-v_.x, -v_.y, v_.z}, across = perpendicular(axis);
         return above(across * drawn.x + cross(axis, across) * drawn.y + axis * drawn.z);
     }
-    const Vec3 h = (lobe == coated ? coat_facets_ : facets_).sample_seen(v_, u[1], u[2]);
+    if (lobe == coated) {
+        const Vec3 h = coat_facets_.sample_seen(coat_v_, u[1], u[2]);
+        return dot(coat_v_, h) > 0 ? above(mirrored_in(coat_v_, h)) : std::nullopt;
+    }
+    const Vec3 h = facets_.sample_seen(v_, u[1], u[2]);
     const double v_h = std::clamp(dot(v_, h), 0.0, 1.0);
     if (v_h == 0) return std::nullopt;
-    if (lobe == coated) return above(mirrored_in(h));
     // What ends on the other side than it should meets another facet: lost here, and given back by the lobes of multiple scattering.
-    if (u[0] < facet(v_h).chance_reflected) return above(mirrored_in(h));
+    if (u[0] < facet(v_h).chance_reflected) return above(mirrored_in(v_, h));
     const double sin2 = (1 - v_h * v_h) / (eta_ * eta_);
     if (sin2 >= 1) return std::nullopt;
     const Vec3 l = h * (v_h / eta_ - std::sqrt(1 - sin2)) - v_ / eta_;
@@ -268,7 +328,7 @@ std::optional<Vec3> Scattering::draw(Lobe lobe, std::array<double, 3> u) const {
 std::optional<ScatterSample> Scattering::ray(Lobe lobe) const {
     ScatterSample s{{}, {}, Part::glossy, true, lobe != mirror};
     s.value.pdf = chances_[lobe];
-    if (lobe == mirror) s.direction = mirrored_direction(facing_, viewer_), s.value.glossy = rays_.reflected;
+    if (lobe == mirror) s.direction = mirrored_direction({mirror_normal(lobes_, facing_.shading), facing_.geometric, facing_.inside}, viewer_), s.value.glossy = rays_.reflected;
     if (lobe == refraction) s.direction = refracted_direction(facing_, viewer_, 1 / eta_), s.value.glossy = rays_.refracted;
     if (lobe == straight) s.direction = -viewer_, s.value.glossy = lobes_.straight;
     return s;
@@ -288,7 +348,8 @@ std::optional<ScatterSample> Scattering::sample(std::array<double, 3> u) const {
 
     const auto l = draw(lobe, u);
     if (!l) return std::nullopt;
-    ScatterSample s{normalize(world(*l)), {}, lobe == diffuse ? Part::diffuse : Part::glossy, false, l->z < 0};
+    const Vec3 direction = normalize((lobe == coated ? coat_frame_ : frame_).world(*l));
+    ScatterSample s{direction, {}, lobe == diffuse ? Part::diffuse : Part::glossy, false, l->z < 0};
     if (!allows(s.direction, s.crosses)) return std::nullopt;
     s.value = toward(s.direction);
     if (s.value.pdf <= 0 || (is_black(s.value.diffuse) && is_black(s.value.glossy))) return std::nullopt;
@@ -298,26 +359,38 @@ std::optional<ScatterSample> Scattering::sample(std::array<double, 3> u) const {
 }  // namespace
 
 Smooth smooth_lobes(const Lobes& lobes) {
-    if (!lobes.layered()) return {true, true};
-    const bool smooth = lobes.smooth();
-    return {smooth || (lobes.coat > 0 && lobes.coat_is_smooth()), smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < bends};
+    Smooth smooth = smooth_facets(lobes);
+    smooth.refracts = smooth.refracts && !disperses(lobes);
+    return smooth;
 }
 
-ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside) {
+bool disperses(const Lobes& lobes) { return lobes.dispersion > 0 && lobes.transmits() && std::abs(lobes.ior - 1) >= bends; }
+
+Lobes in_band(const Lobes& lobes, int band) {
+    Lobes one = lobes;
+    one.ior = std::max(1.0, lobes.ior + (band - 1) * 0.5 * (lobes.ior - 1) * lobes.dispersion / 20);  // from red to blue, the index less 1 over Abbe's number
+    return one;
+}
+
+ChildWeights smooth_weights(const Lobes& lobes, double cosine, double coat_cosine, bool inside) {
     if (!lobes.layered()) return child_weights(lobes, cosine, inside);
     ChildWeights weights;
     if (lobes.transmits()) {
-        const auto fresnel = static_cast<float>(fresnel_dielectric(cosine, inside ? 1 / lobes.ior : lobes.ior));
-        if (lobes.smooth()) weights.reflected = lobes.mirror * fresnel + schlick(lobes.metal, lobes.metal_share, cosine) + conductor_beyond_schlick(lobes, cosine);
-        if (smooth_lobes(lobes).refracts) weights.refracted = lobes.refraction * (1 - fresnel);
+        const Interface facet = glass_interface(lobes, cosine, inside ? 1 / lobes.ior : lobes.ior);
+        if (lobes.smooth()) weights.reflected = lobes.mirror * facet.reflected + schlick(lobes.metal, lobes.metal_share, cosine) + beyond_schlick(lobes, cosine);
+        if (smooth_facets(lobes).refracts) weights.refracted = lobes.refraction * facet.through;
     } else {
-        if (lobes.smooth()) weights.reflected = schlick(lobes.highlight, lobes.coverage, cosine) + conductor_beyond_schlick(lobes, cosine);
+        if (lobes.smooth()) weights.reflected = schlick(lobes.highlight, lobes.coverage, cosine) + beyond_schlick(lobes, cosine);
         weights.refracted = lobes.refraction;
     }
-    if (lobes.coat > 0 && !inside) {
-        const auto below = static_cast<float>(1 - coat_reflectance(lobes, cosine));
+    if (lobes.has_sheen() && !inside) {
+        const auto below = static_cast<float>(1 - sheen_reflectance(lobes, cosine));
         weights = {weights.reflected * below, weights.refracted * below};
-        if (lobes.coat_is_smooth()) weights.reflected += schlick(gray(coat_f0), 1, cosine) * lobes.coat;
+    }
+    if (lobes.coat > 0 && !inside) {
+        const auto below = static_cast<float>(1 - coat_reflectance(lobes, coat_cosine));
+        weights = {weights.reflected * below, weights.refracted * below};
+        if (lobes.coat_is_smooth()) weights.reflected += schlick(gray(coat_f0), 1, coat_cosine) * lobes.coat;
     }
     return weights;
 }
@@ -338,7 +411,7 @@ Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3
 }
 
 Rgb reflect_composed(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, bool with_highlight) {
-    const Facing facing{normal, normal, {}, false};
+    const Facing facing{normal, normal, false};
     const Scattered s = Scattering(lobes, facing, to_viewer, SmoothAs::highlights).toward(to_light);
     return with_highlight ? s.diffuse + s.glossy : s.diffuse;
 }

@@ -19,7 +19,6 @@ enum class Part : std::uint8_t { diffuse, glossy };
 // The surface as it is met. Normals are unit vectors on the viewer's side.
 struct Facing {
     Vec3 shading, geometric;
-    Vec3 tangent;         // along the grain of brushed materials; any length; zero: some direction of the surface
     bool inside = false;  // met from the inner side of its body
 };
 
@@ -42,9 +41,16 @@ struct Smooth {
 };
 Smooth smooth_lobes(const Lobes& lobes);
 
+// Whether the material bends light of each colour by another angle (Lobes::dispersion): its refraction is drawn as rough ones are, one band of the spectrum at a time.
+bool disperses(const Lobes& lobes);
+
+// The same material for one of three bands: red, green, blue (0 to 2), at the wavelengths C, d and F of the definition of Abbe's number.
+Lobes in_band(const Lobes& lobes, int band);
+
 // Weights of the rays of perfectly smooth lobes alone, for a ray that meets the surface at `cosine` (0 to 1): what is a node's child where rough lobes are sampled.
 // The straight ray beside them weighs lobes.straight.
-ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside);
+ChildWeights smooth_weights(const Lobes& lobes, double cosine, double coat_cosine, bool inside);
+inline ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool inside) { return smooth_weights(lobes, cosine, cosine, inside); }
 
 // Directions of the rays that smooth lobes send (unit); cosine: dot(shading, to_viewer), >= 0.
 Vec3 mirrored_direction(const Facing& facing, Vec3 to_viewer);             // lifted to just above the surface
@@ -59,6 +65,8 @@ Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3
 // without the geometric normal.
 Rgb reflect_composed(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, bool with_highlight);
 
+// What disperses draws its refracted ray, as one of a smooth lobe, without with_delta too.
+//
 // A direction drawn about as the material reflects and transmits, from three numbers in [0, 1): the first chooses the lobe, the others the direction. Nothing
 // if there is nothing to draw, or the drawn direction gives nothing.
 std::optional<ScatterSample> sample_scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, std::array<double, 3> u, bool with_delta);

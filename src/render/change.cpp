@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "render/bsdf.h"
+
 namespace crescente::render {
 namespace {
 
@@ -61,22 +63,18 @@ private:
         const Emitters &x = before_.emitters, &y = now_.emitters;
         if (b.level <= scene::Level::edges) return;
         const bool same_number = x.groups() == y.groups();
-        bool same = same_number && change_.same_geometry && !change_.any_reassigned && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
+        bool same = same_number && change_.same_geometry && a.level == b.level && a.depth == b.depth && a.caustics == b.caustics;
         for (std::size_t g = 0; same && g < y.groups(); ++g) same = y.same_samples(g, x, g);
-        for (std::size_t i = 0; same && i < change_.lobes.size(); ++i) {
-            if (!change_.lobes[i].light) continue;
-            const bool textured = before_.textured_material(static_cast<std::uint32_t>(i)) || now_.textured_material(static_cast<std::uint32_t>(i));
-            same = !textured && same_but_for_emission(before_.lobes[i], now_.lobes[i]);
-        }
-        same = same && before_.lens == now_.lens && (!now_.lens || same_to_the_lens());
-        bool same_lights = before_.lights.size() == now_.lights.size();
-        same = same && same_lights;
-        for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
-            if (before_.lights[l].has_extent() || now_.lights[l].has_extent()) same_lights = same_lights && before_.lights[l].source() == now_.lights[l].source();
-            else same = same && change_.lights[l] == LightChange::none;
+        // What disperses has its view of what surrounds the scene among its samples.
+        if (std::any_of(now_.lobes.begin(), now_.lobes.end(), disperses)) same = same && before_.environment == now_.environment;
+        same = same && before_.lens == now_.lens && (!now_.lens || (same_to_the_lens() && !change_.any_reassigned && same_lobes_but_for_emission()));
+        same = same && before_.lights.size() == now_.lights.size();
+        for (std::size_t l = 0; same && l < now_.lights.size(); ++l) {
+            same = (before_.lights[l].is_sampled() && now_.lights[l].is_sampled()) || change_.lights[l] == LightChange::none;
         }
         change_.resamples = !same;
-        if (!same_lights || a.level <= scene::Level::edges) change_.all_lit = change_.sky = true;  // rays see them
+        change_.outdates_samples = same && (change_.any_reassigned || !same_lobes_but_for_emission());
+        if (!same_luminous() || a.level <= scene::Level::edges) change_.all_lit = change_.sky = true;  // rays see them
         for (std::size_t g = 0; same_number && g < y.groups(); ++g) change_.all_lit = change_.all_lit || y.scale(g) != x.scale(g);
     }
     // Whether the pixels' samples hold as far as they tell of what trees know without: what is seen without being lit, but for the scales of groups.
@@ -84,15 +82,25 @@ private:
         for (std::size_t i = 0; i < now_.scene.materials.size(); ++i) {
             if (i < change_.lobes.size() && change_.lobes[i].light && std::holds_alternative<scene::ClassicMaterial>(now_.scene.materials[i].model)) return false;  // ambient
         }
-        for (std::size_t l = 0; l < std::min(before_.lights.size(), now_.lights.size()); ++l) {
-            if (before_.lights[l].source().visible != now_.lights[l].source().visible) return false;
-        }
+        const auto same_seen = [](const Light& a, const Light& b) { return a.source().visible == b.source().visible; };
+        if (!std::equal(before_.luminous.begin(), before_.luminous.end(), now_.luminous.begin(), now_.luminous.end(), same_seen)) return false;
         scene::Environment around = before_.environment.source();
         around.strength = now_.environment.source().strength, around.intensity = now_.environment.source().intensity;
         return around == now_.environment.source();
     }
+    bool same_lobes_but_for_emission() const {
+        for (std::uint32_t i = 0; i < change_.lobes.size(); ++i) {
+            if (!change_.lobes[i].light) continue;
+            if (before_.textured_material(i) || now_.textured_material(i) || !same_but_for_emission(before_.lobes[i], now_.lobes[i])) return false;
+        }
+        return true;
+    }
+    bool same_luminous() const {
+        const auto same = [this](const Light& a, const Light& b) { return a.source() == b.source() && same_receivers(a.receivers(), b.receivers()); };
+        return std::equal(before_.luminous.begin(), before_.luminous.end(), now_.luminous.begin(), now_.luminous.end(), same);
+    }
     static bool same_but_for_emission(const Lobes& before, Lobes now) {
-        now.emission = before.emission;
+        now.emission = before.emission, now.shining = before.shining;
         return before == now;
     }
 
@@ -111,6 +119,7 @@ private:
     LobesChange difference(std::uint32_t i) {
         const LobesChange change = change_between(before_, i, now_, i);
         if (!change.light) return change;
+        if (before_.lobes[i].catcher != now_.lobes[i].catcher) change_.anew = true;  // what its mirrored rays count
         if (before_.lobes[i].attenuation != now_.lobes[i].attenuation || ((before_.absorbs || now_.absorbs) && (may_go_on(before_, i) || may_go_on(now_, i)))) change_.anew = true;
         change_.any_lobes = true;
         return change;
@@ -178,7 +187,7 @@ private:
             if (a != b) change_.reassigned[i] = change_.any_reassigned = true;
             const Lobes &from = before_.lobes[a], &to = now_.lobes[b];
             filters = filters || from.shadow_filter != to.shadow_filter || !(a == b ? same_under_textures(a) : same_textures(before_, a, now_, b));
-            if (from.attenuation != to.attenuation) change_.anew = true;
+            if (from.attenuation != to.attenuation || from.catcher != to.catcher) change_.anew = true;
             if (a != b && (before_.absorbs || now_.absorbs) && (may_go_on(before_, a) || may_go_on(now_, b))) change_.anew = true;
         }
         if (!filters) return;
@@ -240,8 +249,9 @@ private:
     void keep(std::size_t was, std::size_t now) {
         change_.light_before[now] = static_cast<std::uint32_t>(was);
         const scene::Light &a = before_.lights[was].source(), &b = now_.lights[now].source();
+        const bool other_links = links_differ(before_.lights[was], now_.lights[now]);
         if (a == b) {
-            change_.lights[now] = LightChange::none;
+            change_.lights[now] = other_links ? LightChange::reach : LightChange::none;
             return;
         }
         const bool directed = b.kind == scene::LightKind::directional;
@@ -249,8 +259,18 @@ private:
         const bool reach = a.direction != b.direction || a.inner_angle != b.inner_angle || a.outer_angle != b.outer_angle || a.gradient != b.gradient ||
                            a.exponent != b.exponent || a.falloff != b.falloff || a.constant != b.constant || a.linear != b.linear ||
                            a.quadratic != b.quadratic || a.range != b.range || a.two_sided != b.two_sided ||
-                           a.measured != b.measured || (b.measured && a.up != b.up);
+                           a.measured != b.measured || (b.measured && a.up != b.up) || other_links;
         change_.lights[now] = reach ? LightChange::reach : LightChange::strength;
+    }
+
+    // Whether a light acts on other ones of the instances that stay.
+    bool links_differ(const Light& was, const Light& is) const {
+        if (!was.receivers() && !is.receivers()) return false;
+        for (std::uint32_t i = 0; i < change_.instance_now.size(); ++i) {
+            const std::uint32_t now = change_.instance_now[i];
+            if (now != no_node && was.acts_on(i) != is.acts_on(now)) return true;
+        }
+        return false;
     }
 
     const World &before_, &now_;

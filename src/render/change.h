@@ -50,6 +50,7 @@ struct Change {
     std::size_t lights_before = 0;
 
     bool resamples = false;  // what samples told of lights with extent and of light between surfaces does not hold
+    bool outdates_samples = false;  // only materials changed: samples elsewhere do not hold either, but may be shown until they are taken anew
 
     bool sky = false;        // what rays see that leave the scene
     bool frontier = false;   // threshold or depth bound

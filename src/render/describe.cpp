@@ -65,7 +65,7 @@ void describe_node(const Tile& tile, const World& world, const std::vector<Rgb>&
     for (std::size_t l = 0; l < lights; ++l) {
         const std::size_t key = index * lights + l;
         const Share share = key < tile.shares.size() ? tile.shares[key] : Share::untried;
-        out += pad + "    " + name_or(scene.lights[l].name, "light", static_cast<std::uint32_t>(l)) + ": " + word(share);
+        out += pad + "    " + name_or(world.lights[l].source().name, "light", static_cast<std::uint32_t>(l)) + ": " + word(share);
         if (share == Share::filtered) out += " " + text(tile.filtered.at(key));
         out += ", strength " + text(world.lights[l].at(node.position).strength) + "\n";
     }

@@ -26,12 +26,7 @@ LightBounds bounds_of(const LuminousShape& shape, double power) {
 }
 
 // What a material sends out of its own. The ambient radiance of classic materials stands for light between surfaces, and lights nothing.
-Rgb emission_of(const World& world, std::uint32_t material) {
-    if (material < world.scene.materials.size()) {
-        if (const auto* classic = std::get_if<scene::ClassicMaterial>(&world.scene.materials[material].model)) return classic->emission;
-    }
-    return world.lobes[material].emission;
-}
+Rgb emission_of(const World& world, std::uint32_t material) { return world.lobes[material].shining; }
 
 LuminousShape parallelogram(Vec3 corner, Vec3 a, Vec3 b, bool two_sided) {
     const bool upright = std::abs(dot(a, b)) <= 1e-12 * length(a) * length(b);
@@ -92,13 +87,20 @@ struct Pieces {
 
 }  // namespace
 
-Emitters::Emitters(const World& world) : environment_(world.environment) {
+Emitters::Emitters(const World& world, const Emitters* before) : environment_(world.environment) {
     add_lights(world);
     add_objects(world);
     for (Group& group : groups_) {
+        if (before) {
+            const auto same = std::find_if(before->groups_.begin(), before->groups_.end(), [&](const Group& old) { return old.hierarchy && old.members == group.members; });
+            if (same != before->groups_.end()) {
+                group.hierarchy = same->hierarchy;
+                continue;
+            }
+        }
         std::vector<LightBounds> bounds;
         for (const Member& m : group.members) bounds.push_back(bounds_of(m.shape, luminance(m.radiance) * m.shape.area()));
-        group.hierarchy = LightHierarchy(bounds);
+        group.hierarchy = std::make_shared<const LightHierarchy>(bounds);
     }
     environment_group_ = static_cast<std::uint32_t>(groups_.size());
     if (!environment_.shines()) return;
@@ -108,34 +110,37 @@ Emitters::Emitters(const World& world) : environment_(world.environment) {
 
 void Emitters::add_lights(const World& world) {
     std::size_t alone = 0;
-    for (const Light& light : world.lights) alone += light.has_extent() && light.source().group.empty();
+    for (const Light& light : world.luminous) alone += light.source().group.empty();
     std::unordered_map<std::string, std::uint32_t> by_name;
     std::vector<std::uint32_t> group_of;
     std::vector<std::uint32_t> size;
-    for (const Light& light : world.lights) {
-        if (!light.has_extent()) continue;
+    for (const Light& light : world.luminous) {
         // What cannot be together in one group, because it must be told of the whole, is in its name.
         const scene::Light& source = light.source();
         const bool by_itself = source.group.empty() && alone <= most_lights;
-        const std::string name = source.group + '\n' + (source.shadows ? 's' : ' ') + (source.highlights ? 'h' : ' ');
+        std::string name = source.group + '\n' + (source.shadows ? 's' : ' ') + (source.highlights ? 'h' : ' ');
+        for (const auto* links : {&source.only, &source.except}) {
+            name += '\n';
+            for (const std::string& object : *links) name += std::to_string(object.size()) + ' ' + object;
+        }
         auto group = static_cast<std::uint32_t>(groups_.size());
         if (!by_itself) group = by_name.try_emplace(name, group).first->second;
         if (group == groups_.size()) {
             groups_.push_back(Group(Kind::lights));
             groups_.back().shadows = source.shadows, groups_.back().highlights = source.highlights;
+            groups_.back().receivers = light.receivers();
             size.push_back(0);
         }
         ++size[group];
         group_of.push_back(group);
     }
     auto group = group_of.begin();
-    for (const Light& light : world.lights) {
-        if (!light.has_extent()) continue;
+    for (const Light& light : world.luminous) {
         Group& in = groups_[*group];
         Rgb radiance = gray(static_cast<float>(1 / scene::visible_area(light.source())));
         if (size[*group] == 1) in.scale = light.color();
         else radiance = radiance * light.color();
-        lights_.push_back({{*group, static_cast<std::uint32_t>(in.members.size())}, light.source().visible});
+        in.visible.push_back(light.source().visible);
         in.members.push_back({shape_of(light.source()), radiance});
         ++group;
     }
@@ -200,7 +205,7 @@ std::optional<EmitterSample> Emitters::sample(std::size_t group, Vec3 point, con
         if (!(chosen.pdf > 0)) return std::nullopt;
         return EmitterSample{chosen.direction, std::numeric_limits<double>::infinity(), environment_.radiance(chosen.direction), chosen.pdf};
     }
-    const auto choice = g.hierarchy.choose(point, u[2]);
+    const auto choice = g.hierarchy->choose(point, u[2]);
     if (!choice) return std::nullopt;
     const Member& member = g.members[choice->member];
     const auto seen = member.shape.sample(point, u[0], u[1]);
@@ -212,16 +217,7 @@ Emitted Emitters::told(Place at, Vec3 from, Vec3 point, double distance) const {
     const Group& g = groups_[at.group];
     const Member& member = g.members[at.member];
     const double pdf = member.shape.pdf(from, point);
-    return {at.group, member.radiance, pdf > 0 ? pdf * g.hierarchy.chance(at.member, from) : 0, distance, true};
-}
-
-void Emitters::lights_on(const geometry::Ray& ray, Vec3 from, std::vector<Emitted>& met) const {
-    for (const LightPlace& light : lights_) {
-        const auto t = groups_[light.at.group].members[light.at.member].shape.meet(ray);
-        if (!t) continue;
-        met.push_back(told(light.at, from, ray.at(*t), *t));
-        met.back().visible = light.visible;
-    }
+    return {at.group, member.radiance, pdf > 0 ? pdf * g.hierarchy->chance(at.member, from) : 0, distance, true};
 }
 
 std::optional<Emitted> Emitters::environment(Vec3 direction) const {
@@ -241,7 +237,7 @@ std::optional<Emitted> Emitters::surface(std::uint32_t instance, std::uint32_t p
 
 bool Emitters::same_samples(std::size_t group, const Emitters& before, std::size_t group_before) const {
     const Group &a = groups_[group], &b = before.groups_[group_before];
-    return a.kind == b.kind && a.shadows == b.shadows && a.highlights == b.highlights && a.members == b.members && a.unsampled == b.unsampled &&
+    return a.kind == b.kind && a.shadows == b.shadows && a.highlights == b.highlights && same_receivers(a.receivers, b.receivers) && a.members == b.members && a.unsampled == b.unsampled &&
            (a.kind != Kind::environment || environment_.same_radiance(before.environment_));
 }
 

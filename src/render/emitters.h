@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "math/transform.h"
 #include "render/environment.h"
 #include "render/light_hierarchy.h"
+#include "render/light_links.h"
 #include "render/luminous_shape.h"
 
 namespace crescente::render {
@@ -45,7 +47,8 @@ public:
     static constexpr std::size_t most_lights = 16, most_materials = 8;
 
     Emitters() = default;  // none
-    explicit Emitters(const World& world);  // of what is derived of a scene in all the other members. The world may move
+    // Of what is derived of a scene in all the other members. The world may move. `before`, if given: what is the same there is taken over.
+    explicit Emitters(const World& world, const Emitters* before = nullptr);
 
     std::size_t groups() const { return groups_.size(); }
 
@@ -57,9 +60,25 @@ public:
     // For u in [0, 1)^3: the last chooses among members. None: this group does not shine on the point, by this u or at all.
     std::optional<EmitterSample> sample(std::size_t group, Vec3 point, const std::array<double, 3>& u) const;
 
-    // Appends the lights' shapes (no objects) that a ray of unit direction meets within its bounds, in their order. `from`: for which point the density is told, the
-    // ray's origin but for its offset.
-    void lights_on(const geometry::Ray& ray, Vec3 from, std::vector<Emitted>& met) const;
+    // Whether the group acts on an instance (light_links.h).
+    bool acts_on(std::size_t group, std::uint32_t instance) const { return render::acts_on(groups_[group].receivers, instance); }
+
+    // Calls visit(Emitted) for the lights' shapes (no objects) that act on `sender` and that a ray of unit direction meets within its bounds. `from`: for
+    // which point the density is told, the ray's origin but for its offset.
+    template <class Visit>
+    void lights_on(const geometry::Ray& ray, Vec3 from, std::uint32_t sender, Visit&& visit) const {
+        for (std::uint32_t g = 0; g < groups_.size() && groups_[g].kind == Kind::lights; ++g) {
+            const Group& group = groups_[g];
+            if (!acts_on(g, sender)) continue;
+            group.hierarchy->for_each_on(ray, [&](std::uint32_t member) {
+                const auto t = group.members[member].shape.meet(ray);
+                if (!t) return;
+                Emitted met = told({g, member}, from, ray.at(*t), *t);
+                met.visible = group.visible[member] != 0;
+                visit(met);
+            });
+        }
+    }
 
     // None: it is black all around.
     std::optional<Emitted> environment(Vec3 direction) const;
@@ -88,16 +107,14 @@ private:
         Kind kind;
         Rgb scale{1, 1, 1};
         bool shadows = true, highlights = true;
+        Receivers receivers;  // of lights
         std::vector<Member> members;
         std::vector<Unsampled> unsampled;
-        LightHierarchy hierarchy;
+        std::vector<std::uint8_t> visible;  // of lights, by member
+        std::shared_ptr<const LightHierarchy> hierarchy;  // of members; null: the environment's
     };
     struct Place {
         std::uint32_t group, member;
-    };
-    struct LightPlace {
-        Place at;
-        bool visible;
     };
     struct ObjectPlaces {  // of an instance with emissive surfaces
         std::uint32_t instance;
@@ -108,8 +125,7 @@ private:
     void add_object(const World& world, std::uint32_t instance);
     Emitted told(Place at, Vec3 from, Vec3 point, double distance) const;
 
-    std::vector<Group> groups_;
-    std::vector<LightPlace> lights_;              // those with extent, in their order
+    std::vector<Group> groups_;                   // those of lights first
     std::vector<std::uint32_t> group_of_material_;  // by material; none: emits nothing
     std::vector<Rgb> radiance_of_material_;
     std::vector<ObjectPlaces> objects_;           // by rising instance

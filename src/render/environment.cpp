@@ -69,7 +69,7 @@ Rgb environment_radiance(const Environment& environment, Vec3 direction) {
 
 Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3 normal, Vec3 to_viewer, bool inside) {
     if (environment.strength() == 0) return {};
-    const Rgb irradiance = environment.irradiance(normal);
+    const Rgb irradiance = environment.irradiance(normal) * static_cast<float>(environment.even_share());
     Rgb result = lobes.ambient_diffuse * irradiance;
     if (lobes.layered()) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
@@ -77,17 +77,24 @@ Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3
         const float blurred = 1 - lobes.mirror_share;
         // The layer lets in what neither the mirrored ray nor the blurred reflection takes.
         const float mirrored_share = layer_mirrors(lobes, cosine, inside) * lobes.mirror_share;
-        result *= gray(1 - mirrored_share - (lobes.layer_f0 * sum.scale + sum.bias) * blurred);
+        result *= gray(1 - mirrored_share - (lobes.layer_f0 * sum.scale + lobes.layer_f90 * sum.bias) * blurred);
         result += lobes.multiple * irradiance * (static_cast<float>(sum.missing()) * blurred);
         if (blurred > 0 && !is_black(lobes.ambient_specular)) {
-            const Rgb reflectance = lobes.ambient_specular * sum.scale + gray(lobes.coverage * sum.bias);
+            Rgb reflectance = lobes.ambient_specular * sum.scale + gray(lobes.coverage * sum.bias);
+            if (lobes.film > 0) reflectance += beyond_schlick(lobes, cosine) * (sum.scale + sum.bias);
             const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
             result += reflectance * blurred * environment.blurred(mirrored, lobes.roughness);
         }
     }
-    if (lobes.coat > 0 && !inside) {
+    if (lobes.has_sheen() && !inside) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
-        const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
+        const auto sent = static_cast<float>(std::min(1.0, sheen_sum(lobes.sheen_sums, cosine)));
+        result = result * (1 - lobes.sheen_most * sent) + lobes.sheen * irradiance * sent;
+    }
+    if (lobes.coat > 0 && !inside) {
+        const Vec3 over = lobes.coat_normal == Vec3{} ? normal : lobes.coat_normal;
+        const double cosine = std::clamp(dot(over, to_viewer), 0.0, 1.0);
+        const Vec3 mirrored = over * (2 * dot(over, to_viewer)) - to_viewer;
         const auto reflectance = static_cast<float>(coat_reflectance(lobes, cosine));
         const Rgb blurred = environment.blurred(mirrored, std::sqrt(lobes.coat_alpha));
         result = result * (1 - reflectance) + blurred * (reflectance * (1 - lobes.coat_mirror_share));

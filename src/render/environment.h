@@ -23,6 +23,7 @@ public:
 
     bool backdrop() const { return source_.backdrop; }
     double strength() const { return panorama() ? source_.intensity : source_.strength; }  // factor of its radiance where it lights surfaces
+    double even_share() const { return source_.directions > 0 ? 0.4 : 1.0; }  // of its light, that levels that do not sample take evenly, without shadows: it stands for light between surfaces too
     bool same_radiance(const Environment& other) const;                                    // whatever strength and backdrop
     bool shines() const { return panorama() ? panorama()->shines() : total_ > 0; }         // some direction is not black
 

@@ -1,7 +1,9 @@
 #include "render/estimates.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "render/forest.h"
 #include "render/world.h"
@@ -12,6 +14,20 @@ namespace {
 // Two positive numbers in 32 bits: the upper halves of floats, 3 digits each, which is enough to decide by.
 std::uint32_t packed(float a, float b) { return (std::bit_cast<std::uint32_t>(a) & 0xffff0000) | std::bit_cast<std::uint32_t>(b) >> 16; }
 Spread unpacked(std::uint32_t v) { return {std::bit_cast<float>(v & 0xffff0000), std::bit_cast<float>(v << 16)}; }
+
+constexpr std::uint32_t fewest_to_tell = 4;  // samples
+
+// While the pilot is under way, or with its last sample.
+Spread spread_so_far(const Estimate& estimate, std::uint32_t samples) {
+    const auto count = static_cast<float>(samples);
+    const float mean = luminance(estimate.diffuse + estimate.glossy) / count;
+    const float variance = std::max(0.0f, std::bit_cast<float>(estimate.spread) / count - mean * mean);
+    return {std::max(0.0f, mean), std::sqrt(samples > 1 ? variance * count / (count - 1) : variance)};
+}
+
+Spread spread_of(const Estimate& estimate, std::uint32_t samples) {
+    return samples >= pilot ? unpacked(estimate.spread) : spread_so_far(estimate, samples);
+}
 
 const Estimate* estimates_of(const World& world, const Tile& tile, std::uint32_t node) { return tile.estimates.data() + node * estimate_groups(world); }
 
@@ -25,14 +41,26 @@ void add_sample(Estimate& estimate, std::uint32_t index, Rgb diffuse, Rgb glossy
     estimate.diffuse += diffuse, estimate.glossy += glossy;
     if (index >= pilot) return;
     const float sample = luminance(diffuse + glossy);
-    const float squares = std::bit_cast<float>(estimate.spread) + sample * sample;
-    if (index + 1 < pilot) {
-        estimate.spread = std::bit_cast<std::uint32_t>(squares);
-        return;
+    estimate.spread = std::bit_cast<std::uint32_t>(std::bit_cast<float>(estimate.spread) + sample * sample);
+    if (index + 1 < pilot) return;
+    const Spread spread = spread_so_far(estimate, pilot);
+    estimate.spread = packed(spread.mean, spread.deviation);
+}
+
+SampledParts sampled_parts(const World& world, const Tile& tile, std::uint32_t node) {
+    const Estimate* estimates = estimates_of(world, tile, node);
+    const std::uint32_t samples = tile.samples[node];
+    SampledParts parts;
+    float deviation = 0;  // deviations are added as if the groups erred together
+    for (std::size_t g = 0; g < estimate_groups(world); ++g) {
+        const Rgb scale = scale_of_group(world, g);
+        parts.diffuse += estimates[g].diffuse * scale, parts.glossy += estimates[g].glossy * scale;
+        deviation += max_component(scale) * spread_of(estimates[g], samples).deviation;
     }
-    const float mean = luminance(estimate.diffuse + estimate.glossy) / pilot;
-    const float variance = std::max(0.0f, squares / pilot - mean * mean) * pilot / (pilot - 1);
-    estimate.spread = packed(std::max(0.0f, mean), std::sqrt(variance));
+    const float share = 1.0f / static_cast<float>(samples);
+    parts.diffuse *= gray(share), parts.glossy *= gray(share);
+    if (samples >= fewest_to_tell) parts.deviation = deviation;
+    return parts;
 }
 
 Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node) {
@@ -42,29 +70,36 @@ Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node) {
     return sum * (1.0f / static_cast<float>(tile.samples[node]));
 }
 
-std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node) {
-    // A pixel is the mean of four corners, each with samples of its own.
-    return samples_needed(world, spread_of(world, estimates_of(world, tile, node)), max_component(influence(tile, node)), 4);
-}
-
-Spread spread_of(const World& world, const Estimate* estimates) {
+Spread spread_of(const World& world, const Estimate* estimates, std::uint32_t samples) {
     Spread sum;
     for (std::size_t g = 0; g < estimate_groups(world); ++g) {
-        const Spread spread = unpacked(estimates[g].spread);
+        const Spread spread = spread_of(estimates[g], samples);
         const float scale = max_component(scale_of_group(world, g));
         sum.mean += scale * spread.mean, sum.deviation += scale * spread.deviation;
     }
     return sum;
 }
 
-std::uint32_t samples_needed(const World& world, const Spread& spread, double influence, double mean_of) {
+double samples_wanted(const World& world, const Spread& spread, double influence, double mean_of) {
     const scene::Settings& settings = world.scene.settings;
     const double dark = 0.02 * std::exp2(-settings.exposure);  // errors below this, for noise 1, are not seen in dark pixels either
     const double ratio = influence * spread.deviation / (settings.noise * (influence * spread.mean + dark));
-    const double wanted = ratio * ratio / mean_of;
-    std::uint32_t samples = pilot;
-    while (samples < wanted && samples < static_cast<std::uint32_t>(settings.samples)) samples *= 2;
-    return std::min(samples, std::max(pilot, static_cast<std::uint32_t>(settings.samples)));
+    return ratio * ratio / mean_of;
 }
+
+double samples_wanted(const World& world, const Tile& tile, std::uint32_t node) {
+    if (tile.samples[node] < fewest_to_tell) return std::numeric_limits<double>::infinity();
+    // A pixel is the mean of four corners, each with samples of its own.
+    return samples_wanted(world, spread_of(world, estimates_of(world, tile, node), tile.samples[node]), max_component(influence(tile, node)), 4);
+}
+
+std::uint32_t samples_needed(const World& world, double wanted) {
+    const auto bound = static_cast<std::uint32_t>(world.scene.settings.samples);
+    std::uint32_t samples = pilot;
+    while (samples < wanted && samples < bound) samples *= 2;
+    return std::min(samples, std::max(pilot, bound));
+}
+
+std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node) { return samples_needed(world, samples_wanted(world, tile, node)); }
 
 }  // namespace crescente::render

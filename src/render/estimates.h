@@ -16,7 +16,7 @@ struct World;
 
 // The light of one group at one node, from so many samples as Tile::samples says.
 struct Estimate {
-    Rgb diffuse, glossy;       // sums of radiance to the viewer, by part of the material, for a group of scale 1
+    Rgb diffuse, glossy;       // sums of radiance to the viewer, by part of the material, for a group of scale 1; of catchers: as render/catcher.h says
     std::uint32_t spread = 0;  // until the pilot is complete: sum of squared luminances; from then on how the pilot's samples were spread
 };
 static_assert(sizeof(Estimate) == 28);
@@ -32,20 +32,30 @@ Rgb scale_of_group(const World& world, std::size_t group);
 // Adds sample number `index` of a node, counted from 0, to the sums.
 void add_sample(Estimate& estimate, std::uint32_t index, Rgb diffuse, Rgb glossy);
 
-// Radiance to the viewer that the samples of a node say; it must have some.
+// What the samples of a node say, which must have some: radiance to the viewer, by part of the material.
+struct SampledParts {
+    Rgb diffuse, glossy;
+    float deviation = -1;  // of the luminance over single samples; negative: too few to tell
+};
+SampledParts sampled_parts(const World& world, const Tile& tile, std::uint32_t node);
 Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node);
 
-// Samples that a node whose pilot is complete should have in all: a power of two times the pilot's, up to the settings' bound, such that its error times its
-// influence is below the settings' noise, relative to how bright the node is in the pixel.
+// Samples for which the error of a node times its influence is below the settings' noise, relative to how bright the node is in the pixel. Infinite: there are
+// too few to tell.
+double samples_wanted(const World& world, const Tile& tile, std::uint32_t node);
+
+// Samples that a node whose pilot is complete should have in all: what it wants, as a power of two times the pilot's, up to the settings' bound.
 std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node);
 
 // How bright an estimate's pilot was, and how its samples were spread about that: luminances, added over all groups as if these erred together.
 struct Spread {
     float mean = 0, deviation = 0;
 };
-Spread spread_of(const World& world, const Estimate* estimates);
+Spread spread_of(const World& world, const Estimate* estimates, std::uint32_t samples);
 
-// The same for samples spread like this, of light that weighs so much in a pixel, which is the mean of so many.
-std::uint32_t samples_needed(const World& world, const Spread& spread, double influence, double mean_of);
+// The same for samples spread like this, of light that weighs so much in a pixel, which is the mean of so many; and as a power of two times the pilot's, up to
+// the settings' bound.
+double samples_wanted(const World& world, const Spread& spread, double influence, double mean_of);
+std::uint32_t samples_needed(const World& world, double wanted);
 
 }  // namespace crescente::render

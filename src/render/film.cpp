@@ -17,24 +17,26 @@ namespace crescente::render {
 namespace {
 
 // Nothing while a corner is missing.
-std::optional<Rgb> mean_of(const std::vector<Rgb>& radiance, const std::array<std::uint32_t, 4>& corners) {
-    Rgb sum;
+template <class T>
+std::optional<T> mean_of(const std::vector<T>& of_nodes, const std::array<std::uint32_t, 4>& corners) {
+    T sum{};
     for (const std::uint32_t root : corners) {
         if (root == no_node) return {};
-        sum += radiance[root];
+        sum += of_nodes[root];
     }
     return sum * 0.25f;
 }
 
 // Of the parts, or while these are not whole, of the quad's own corners.
-std::optional<Rgb> mean_of(const std::vector<Quad>& quads, const std::vector<Rgb>& radiance, const Quad& quad) {
-    Rgb sum;
+template <class T>
+std::optional<T> mean_of(const std::vector<Quad>& quads, const std::vector<T>& of_nodes, const Quad& quad) {
+    T sum{};
     for (std::uint32_t k = 0; quad.parts != no_node && k < 4; ++k) {
-        const auto part = mean_of(quads, radiance, quads[quad.parts + k]);
-        if (!part) return mean_of(radiance, quad.corners);
+        const auto part = mean_of(quads, of_nodes, quads[quad.parts + k]);
+        if (!part) return mean_of(of_nodes, quad.corners);
         sum += *part;
     }
-    return quad.parts != no_node ? sum * 0.25f : mean_of(radiance, quad.corners);
+    return quad.parts != no_node ? std::optional<T>(sum * 0.25f) : mean_of(of_nodes, quad.corners);
 }
 
 std::uint32_t samples_in(const Tile& tile, const Quad& quad) {
@@ -61,8 +63,9 @@ int whole_grid(const Tile& tile) {
 }
 
 // Bilinear between the corners of a coarse grid, at the middle of each pixel.
-std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance, int step) {
-    std::vector<Rgb> pixels;
+template <class T>
+std::vector<T> interpolate(const Tile& tile, const std::vector<T>& of_nodes, int step) {
+    std::vector<T> pixels;
     pixels.reserve(static_cast<std::size_t>(tile.width) * tile.height);
     for (int y = 0; y < tile.height; ++y) {
         const int y0 = y / step * step, y1 = std::min(y0 + step, tile.height);
@@ -70,8 +73,9 @@ std::vector<Rgb> interpolate(const Tile& tile, const std::vector<Rgb>& radiance,
         for (int x = 0; x < tile.width; ++x) {
             const int x0 = x / step * step, x1 = std::min(x0 + step, tile.width);
             const float fx = (static_cast<float>(x - x0) + 0.5f) / static_cast<float>(x1 - x0);
-            const auto at = [&](int i, int j) { return radiance[tile.corner(i, j)]; };
-            pixels.push_back(mix(mix(at(x0, y0), at(x1, y0), fx), mix(at(x0, y1), at(x1, y1), fx), fy));
+            const auto at = [&](int i, int j) { return of_nodes[tile.corner(i, j)]; };
+            const auto between = [](const T& a, const T& b, float share) { return a * (1.0f - share) + b * share; };
+            pixels.push_back(between(between(at(x0, y0), at(x1, y0), fx), between(at(x0, y1), at(x1, y1), fx), fy));
         }
     }
     return pixels;
@@ -87,28 +91,52 @@ std::array<std::uint32_t, 4> corners_of(const Tile& tile, int x, int y) {
     return {tile.corner(x, y), tile.corner(x + 1, y), tile.corner(x, y + 1), tile.corner(x + 1, y + 1)};
 }
 
-}  // namespace
-
-std::vector<Rgb> develop(const Tile& tile) {
-    if (tile.shows_pixels()) return tile.pixels;
-    if (!tile.lens_pixels.empty()) return tile.lens_pixels;
+// The pixels by what of_nodes() says of every node; `before`: what they showed at an earlier time.
+template <class T, class OfNodes>
+std::vector<T> developed(const Tile& tile, OfNodes&& of_nodes, const std::vector<T>& before) {
     const std::size_t count = static_cast<std::size_t>(tile.width) * tile.height;
     const bool edited = !tile.pixels.empty();  // what is not known anew is still shown as it was
     const std::vector<Quad>& quads = tile.quads_before.empty() ? tile.quads : tile.quads_before;
     const int step = !quads.empty() || (edited && !tile.corners.empty()) ? 1 : whole_grid(tile);
-    if (step == 0) return edited ? tile.pixels : std::vector<Rgb>(count);
-    const std::vector<Rgb> radiance = radiances(tile);
-    if (step > 1) return interpolate(tile, radiance, step);
-    std::vector<Rgb> pixels;
+    if (step == 0) return edited ? before : std::vector<T>(count);
+    std::vector<T> values = of_nodes(tile);
+    if (values.empty() && before.empty()) return {};
+    values.resize(tile.nodes.size());
+    if (step > 1) return interpolate(tile, values, step);
+    std::vector<T> pixels;
     pixels.reserve(count);
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
             const auto corners = corners_of(tile, x, y);
-            const auto pixel = is_previewed(tile, corners) ? std::nullopt : quads.empty() ? mean_of(radiance, corners) : mean_of(quads, radiance, quads[pixels.size()]);
-            pixels.push_back(pixel ? *pixel : edited ? tile.pixels[pixels.size()] : Rgb{});
+            const std::size_t i = pixels.size();
+            std::optional<T> pixel;
+            if (!is_previewed(tile, corners)) pixel = quads.empty() ? mean_of(values, corners) : mean_of(quads, values, quads[i]);
+            pixels.push_back(pixel ? *pixel : i < before.size() ? before[i] : T{});
         }
     }
     return pixels;
+}
+
+}  // namespace
+
+std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections) {
+    if (!tile.shows_pixels() && !tile.lens_pixels.empty()) return tile.lens_pixels;
+    return tile.shows_pixels() ? tile.pixels : developed<Rgb>(tile, [&](const Tile& t) { return radiances(t, corrections); }, tile.pixels);
+}
+
+std::vector<float> develop_clear(const Tile& tile) {
+    return tile.shows_pixels() ? tile.clear_pixels : developed<float>(tile, clearness, tile.clear_pixels);
+}
+
+void keep_picture(Tile& tile) {
+    std::vector<float> clear = develop_clear(tile);
+    tile.pixels = develop(tile);
+    tile.clear_pixels = std::move(clear);
+}
+
+void forget_picture(Tile& tile) {
+    release(tile.pixels), release(tile.clear_pixels);
+    tile.pixels_stage = -1;
 }
 
 std::uint32_t root_near(const Tile& tile, int x, int y) {
@@ -134,18 +162,19 @@ Tile without_trees(const Tile& tile) { return without_trees(tile, develop(tile))
 Tile without_trees(const Tile& tile, std::vector<Rgb> pixels) {
     Tile rest = blank_tile(tile);
     rest.pixels = std::move(pixels);
+    rest.clear_pixels = develop_clear(tile);
     rest.rays = tile.rays;
     rest.tests = tile.tests;
     return rest;
 }
 
-scene::Image blank_image(int width, int height, bool all_layers) {
+scene::Image blank_image(int width, int height, bool all_layers, bool alpha) {
     scene::Image image{width, height, {}};
     const auto add = [&](const char* name, std::vector<std::string> channels) {
         const std::size_t values = static_cast<std::size_t>(width) * height * channels.size();
         image.layers.push_back({name, std::move(channels), std::vector<float>(values)});
     };
-    add("color", {"R", "G", "B"});
+    add("color", alpha ? std::vector<std::string>{"R", "G", "B", "A"} : std::vector<std::string>{"R", "G", "B"});
     if (!all_layers) return image;
     add("depth", {"Z"});
     add("position", {"X", "Y", "Z"});
@@ -159,15 +188,18 @@ scene::Image blank_image(int width, int height, bool all_layers) {
     return image;
 }
 
-void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image) {
-    std::vector<Rgb> developed;
-    if (!tile.shows_pixels()) developed = develop(tile);
-    const std::vector<Rgb>& pixels = tile.shows_pixels() ? tile.pixels : developed;
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, std::span<const Rgb> corrections) {
+    std::vector<Rgb> made;
+    if (!tile.shows_pixels()) made = develop(tile, corrections);
+    const std::vector<Rgb>& pixels = tile.shows_pixels() ? tile.pixels : made;
+    const std::size_t channels = image.layers[0].channels.size();
+    const std::vector<float> clear = channels == 4 ? develop_clear(tile) : std::vector<float>{};
     for (int y = 0; y < tile.height; ++y) {
-        float* row = &image.layers[0].values[3 * (static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0)];
-        for (int x = 0; x < tile.width; ++x) {
-            const Rgb& pixel = pixels[static_cast<std::size_t>(y) * tile.width + x];
-            row[3 * x] = pixel.r, row[3 * x + 1] = pixel.g, row[3 * x + 2] = pixel.b;
+        float* to = &image.layers[0].values[channels * (static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0)];
+        for (int x = 0; x < tile.width; ++x, to += channels) {
+            const std::size_t i = static_cast<std::size_t>(y) * tile.width + x;
+            to[0] = pixels[i].r, to[1] = pixels[i].g, to[2] = pixels[i].b;
+            if (channels == 4) to[3] = 1 - std::clamp(i < clear.size() ? clear[i] : 0.0f, 0.0f, 1.0f);
         }
     }
     if (image.layers.size() == 1 || tile.corners.empty()) return;

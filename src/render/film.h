@@ -10,8 +10,15 @@
 namespace crescente::render {
 
 // The colours of a tile's pixels, row by row, as its trees stand: the mean of a pixel's corners, or of its parts where it was split.
-// Before all corners are there, coarser ones are interpolated. Black for a tile without any.
-std::vector<Rgb> develop(const Tile& tile);
+// Before all corners are there, coarser ones are interpolated. Black for a tile without any. `corrections`: by node, see radiances().
+std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections = {});
+
+// The share of what is behind the scene that is seen in each pixel, in the same way; empty: none in any, or the picture does not keep it apart.
+std::vector<float> develop_clear(const Tile& tile);
+
+// Makes what the tile shows its `pixels`, and gives these up.
+void keep_picture(Tile& tile);
+void forget_picture(Tile& tile);
 
 // The root that says best what a pixel of the tile shows: at its middle where it was split, else at a corner, or as near to it as there is one by now.
 // no_node: nothing is known yet.
@@ -21,10 +28,10 @@ std::uint32_t root_near(const Tile& tile, int x, int y);
 Tile without_trees(const Tile& tile);
 Tile without_trees(const Tile& tile, std::vector<Rgb> pixels);
 
-// Names, channels and room for the layers of a picture; see scene/image.h.
-scene::Image blank_image(int width, int height, bool all_layers);
+// Names, channels and room for the layers of a picture; see scene/image.h. alpha: the colours have a fourth channel.
+scene::Image blank_image(int width, int height, bool all_layers, bool alpha);
 
 // Writes what the tile knows into every layer of the image. `level` is the level that each finished stage belongs to.
-void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image);
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, std::span<const Rgb> corrections = {});
 
 }  // namespace crescente::render

@@ -47,7 +47,11 @@ void add_fields(Hasher& a, const Owner& owner) {
         const FieldValue value = field.get(owner);
         add(a, value.index());
         std::visit([&](const auto& v) {
-            if constexpr (std::same_as<std::remove_cvref_t<decltype(v)>, std::string>) a.raw(v.data(), v.size());
+            using Value = std::remove_cvref_t<decltype(v)>;
+            if constexpr (std::same_as<Value, std::string>) a.raw(v.data(), v.size());
+            else if constexpr (std::same_as<Value, std::vector<std::string>>) {
+                for (const std::string& name : v) add(a, name.size()), a.raw(name.data(), name.size());
+            }
             else add(a, v);
         }, value);
     }

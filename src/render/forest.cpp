@@ -16,7 +16,7 @@ std::size_t sum_columns(const Tile& tile, Length length) {
     };
     return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.samples) + vector_bytes(tile.estimates) + vector_bytes(tile.lens_samples) +
            vector_bytes(tile.lens_estimates) + vector_bytes(tile.lens_pixels) + vector_bytes(tile.corners) +
-           vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) + vector_bytes(tile.todo) + vector_bytes(tile.pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
+           vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) + vector_bytes(tile.todo) + vector_bytes(tile.pixels) + vector_bytes(tile.clear_pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
 }  // namespace
@@ -47,9 +47,17 @@ void show_without_samples(Tile& tile) {
 
 void forget_samples(Tile& tile) {
     show_without_samples(tile);
+    for (Node& node : tile.nodes) node.outdated = false;
     release(tile.samples), release(tile.estimates);
     release(tile.lens_samples), release(tile.lens_estimates), release(tile.lens_pixels);
     tile.lens_piloted = false;
+}
+
+void forget_samples(Tile& tile, std::uint32_t node) {
+    const std::size_t groups = tile.estimates.size() / tile.samples.size();
+    tile.samples[node] = 0;
+    tile.nodes[node].outdated = false;
+    std::fill_n(tile.estimates.begin() + static_cast<std::ptrdiff_t>(node * groups), groups, Estimate{});
 }
 
 std::vector<Tile> cut_tiles(const scene::Settings& settings) {
@@ -81,10 +89,22 @@ Rgb influence(const Tile& tile, std::uint32_t node) {
     return product;
 }
 
-std::vector<Rgb> radiances(const Tile& tile) {
+std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections) {
     std::vector<Rgb> result(tile.nodes.size());
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
-        result[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return result[child]; });
+        const Rgb correction = corrections.empty() ? Rgb{} : corrections[i];
+        result[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return result[child]; }, correction);
+    }
+    return result;
+}
+
+std::vector<float> clearness(const Tile& tile) {
+    if (std::none_of(tile.nodes.begin(), tile.nodes.end(), [](const Node& node) { return node.clear > 0; })) return {};
+    std::vector<float> result(tile.nodes.size());
+    for (std::size_t i = tile.nodes.size(); i-- > 0;) {
+        float sum = static_cast<float>(tile.nodes[i].clear) / float{all_clear};
+        for_each_child(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child, Way) { sum += luminance(tile.nodes[child].weight) * result[child]; });
+        result[i] = sum;
     }
     return result;
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct Node {
     bool sampled : 1 = false;        // `local` counts what the samples say, instead of what levels that do not sample make up
     bool samples_reflection : 1 = false, samples_refraction : 1 = false;  // then these rays stand for rough lobes, and are no part of the picture
     bool hidden : 1 = false;         // kept, but below the threshold or the depth bound since an edit: no part of the picture
+    std::uint16_t clear : 15 = 0;    // share of what is behind the scene that is seen here, in 32767ths, where the picture keeps it apart (alpha)
+    std::uint16_t outdated : 1 = 0;  // its samples are of before an edit: shown until all others have theirs, and never in a finished picture
 
     bool left_scene() const { return instance == no_node; }
 };
@@ -56,6 +59,8 @@ enum class Share : std::uint8_t {
     clear,
     filtered,  // the RGB share is in Tile::filtered
 };
+
+inline constexpr std::uint16_t all_clear = 32767;  // Node::clear where nothing is in front of what is behind the scene
 
 constexpr bool may_arrive(Share share) { return share != Share::behind && share != Share::blocked; }
 
@@ -104,6 +109,7 @@ struct Tile {
     std::size_t cursor = 0;  // work of the next stage that is done
     std::vector<std::uint32_t> todo;  // what the next stage works through: its meaning is the stage's
     std::vector<Rgb> pixels;  // what the trees gave at an earlier time: before they were dropped, left unlit or edited
+    std::vector<float> clear_pixels;  // with those: what clearness() says of the pixels; empty: nothing behind the scene is seen in any
     int pixels_stage = -1;    // stages that were complete then; -1: never
     int previewed_until = 0;  // before this stage only pixels whose corners were all grown since an edit are shown by their trees, the others by `pixels`
     std::uint32_t kept = 0;   // with that: nodes that the edit left; those after them were grown since
@@ -150,10 +156,11 @@ void for_each_child(const Tile& tile, std::uint32_t node, Visit&& visit) {
     if (child != tile.straight.end() && !tile.nodes[child->second].hidden) visit(child->second, Way::straight);
 }
 
-// Radiance of a node with its children, whose own radiance_of_child(child) gives; of a root as it arrives at the camera, which may be in a medium.
+// Radiance of a node with its children, whose own radiance_of_child(child) gives; of a root as it arrives at the camera, which may be in a medium. `correction`:
+// added to its own.
 template <class RadianceOfChild>
-Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radiance_of_child) {
-    Rgb sum = tile.nodes[node].local;
+Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radiance_of_child, Rgb correction = {}) {
+    Rgb sum = tile.nodes[node].local + correction;
     for_each_child(tile, node, [&](std::uint32_t child, Way) { sum += tile.nodes[child].weight * radiance_of_child(child); });
     return tile.nodes[node].parent == no_node ? sum * tile.nodes[node].weight : sum;
 }
@@ -161,6 +168,7 @@ Rgb radiance_above(const Tile& tile, std::uint32_t node, RadianceOfChild&& radia
 // Takes the light of samples out of the nodes, which are to be lit again. What the samples told is kept, or forgotten too.
 void show_without_samples(Tile& tile);
 void forget_samples(Tile& tile);
+void forget_samples(Tile& tile, std::uint32_t node);  // of one
 
 // The tiles of a picture, row by row, for which nothing was done yet.
 std::vector<Tile> cut_tiles(const scene::Settings& settings);
@@ -171,7 +179,11 @@ Tile blank_tile(const Tile& place);
 // The product of the weights from the pixel down to the node, taken in this order.
 Rgb influence(const Tile& tile, std::uint32_t node);
 
-// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera.
-std::vector<Rgb> radiances(const Tile& tile);
+// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera. `corrections`: by node, what is added to its
+// own radiance; empty: nothing.
+std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections = {});
+
+// Share of what is behind the scene that is seen in every node, by node. Empty: none in any.
+std::vector<float> clearness(const Tile& tile);
 
 }  // namespace crescente::render

@@ -5,6 +5,7 @@
 
 #include "math/octahedral.h"
 #include "render/bsdf.h"
+#include "render/catcher.h"
 #include "render/environment.h"
 #include "render/hit_surface.h"
 #include "render/light_seen.h"
@@ -36,15 +37,9 @@ void make_shadow_rays(const Vec3Lanes& position, const Vec3Lanes& geometric_norm
     make_rays(starts(position, geometric_normal, offset, reach.to_light), reach.to_light, reach.distance * (1 - 1e-12) - 2.0 * offset, rays);
 }
 
-Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) {
-    return from_octahedral(OctahedralPoint<Lanes>{code.a / octahedral_scale, code.b / octahedral_scale});
-}
-
-constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
+Vec3Lanes geometric_normals(const OctahedralPoint<Lanes>& code) { return from_octahedral(OctahedralPoint<Lanes>{code.a / octahedral_scale, code.b / octahedral_scale}); }
 
 }  // namespace
-
-geometry::Ray camera_ray(const World& world, LatticePoint point) { return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step); }
 
 std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first) {
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
@@ -79,14 +74,15 @@ std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<
     seeds_.assign(points.size(), {});
     append();
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!hits_[i].found()) tile_.nodes[first + i].local = sky_seen(world_, points[i]);
+        if (!hits_[i].found()) light_sky(world_, tile_, first + static_cast<std::uint32_t>(i), points[i]);
     }
     return first;
 }
 
-// Nodes for rays_ and their hits_, with what they inherit from seeds_.
+// Nodes for rays_ and their hits_, with what they inherit from seeds_. Those that left the scene, but for roots, are left to be lit: sky_nodes_.
 void Growth::append() {
     const std::size_t first = tile_.nodes.size();
+    sky_nodes_.clear();
     tile_.nodes.resize(first + rays_.size());
     for (std::size_t block = 0; block < rays_.size(); block += lane_count) {
         const int count = static_cast<int>(std::min<std::size_t>(lane_count, rays_.size() - block));
@@ -105,7 +101,7 @@ void Growth::append() {
             if (!(found >> i & 1)) {
                 node.position = rays_[block + i].direction;
                 node.shadowed = true;
-                if (node.parent != no_node) node.local = sky_seen(world_, {tile_.nodes[node.parent].position, node.position});
+                if (node.parent != no_node) sky_nodes_.push_back(static_cast<std::uint32_t>(first + block + i));
                 continue;
             }
             node.position = lane(at.position, i);
@@ -178,7 +174,7 @@ void Growth::light_points(bool shadows, Coherence coherence) {
             if (is_black(world_.lights[l].color())) continue;
             for (PointLanes& p : points_) aim(p, l);
             if (world_.lights[l].casts_shadows()) trace_shadows(l, coherence);
-            for (PointLanes& p : points_) add_light(p, l);
+            for (PointLanes& p : points_) catch_light(p, l), add_light(p, l);
         }
     } else {  // nothing to trace: all lights of the same points, while these are in the cache
         for (PointLanes& p : points_) {
@@ -186,32 +182,41 @@ void Growth::light_points(bool shadows, Coherence coherence) {
                 if (is_black(world_.lights[l].color())) continue;
                 aim(p, l);
                 if (shadows && world_.lights[l].casts_shadows()) leave_out_of_reach(p, l);
-                add_light(p, l);
+                catch_light(p, l), add_light(p, l);
             }
         }
     }
     for (const PointLanes& p : points_) {
-        for (int i = 0; i < p.count; ++i) tile_.nodes[p.node[i]].local = {p.sum[0][i], p.sum[1][i], p.sum[2][i]};
+        for (int i = 0; i < p.count; ++i) {
+            Node& node = tile_.nodes[p.node[i]];
+            node.local = {p.sum[0][i], p.sum[1][i], p.sum[2][i]};
+            node.clear = 0;
+            if (p.catching >> i & 1) end_catcher(p, i);
+        }
     }
 }
 
 // Light without that of lamps.
 void Growth::begin_light(PointLanes& p, bool shadows) {
-    p.physical = p.layered = p.sampled = 0;
+    p.physical = p.layered = p.sampled = p.catching = 0;
     for (int i = 0; i < p.count; ++i) {
         Node& node = tile_.nodes[p.node[i]];
         const Lobes& lobes = *p.lobes[i];
+        if (node.sampled) p.sampled |= 1u << i;
+        node.shadowed = node.shadowed || shadows;
+        if (lobes.catcher && catches(world_, tile_, p.node[i])) {
+            begin_catcher(p, i);
+            continue;
+        }
         if (lobes.layered() && !lobes.composed()) {
             p.physical |= 1u << i;
             const PhysicalView<double> view = physical_view(lobes, dot(lane(p.normal, i), lane(p.viewer, i)));
             set_lane(p.view, i, view);
             if (asks_for_layer(lobes)) p.layered |= 1u << i;
         }
-        if (node.sampled) p.sampled |= 1u << i;
         const Rgb around = node.sampled ? sampled_radiance(world_, tile_, p.node[i]) : reflect_environment(world_.environment, lobes, lane(p.normal, i), lane(p.viewer, i), node.inside);
-        const Rgb sum = lobes.emission + around + lights_before(world_, tile_, node);
+        const Rgb sum = lobes.emission + around + lights_before(world_, tile_, p.node[i]);
         p.sum[0][i] = sum.r, p.sum[1][i] = sum.g, p.sum[2][i] = sum.b;
-        node.shadowed = node.shadowed || shadows;
     }
 }
 
@@ -227,8 +232,11 @@ bool Growth::any_untried(const PointLanes& p) const {
 void Growth::aim(PointLanes& p, std::size_t light) const {
     const std::size_t lights = world_.lights.size();
     p.lit = 0;
-    const unsigned asked = world_.lights[light].has_extent() ? ~p.sampled : ~0u;
+    const unsigned asked = world_.lights[light].is_sampled() ? ~p.sampled : ~0u;
     for (int i = 0; i < p.count; ++i) p.lit |= asked >> i & may_arrive(tile_.shares[std::size_t{p.node[i]} * lights + light]) ? 1u << i : 0u;
+    if (world_.lights[light].receivers()) {
+        for (int i = 0; i < p.count; ++i) p.lit &= ~(world_.lights[light].acts_on(tile_.nodes[p.node[i]].instance) ? 0u : 1u << i);
+    }
     if (!p.lit) return;
     p.reach = world_.lights[light].reach(p.position);
     p.cosine = dot(p.normal, p.reach.to_light);
@@ -237,9 +245,9 @@ void Growth::aim(PointLanes& p, std::size_t light) const {
 
 void Growth::leave_out_of_reach(const PointLanes& p, std::size_t light) {
     const std::size_t lights = world_.lights.size();
-    const bool has_extent = world_.lights[light].has_extent();
+    const bool is_sampled = world_.lights[light].is_sampled();
     for (int i = 0; i < p.count; ++i) {
-        if (has_extent && p.sampled >> i & 1) continue;  // not asked
+        if (is_sampled && p.sampled >> i & 1) continue;  // not asked
         Share& share = tile_.shares[std::size_t{p.node[i]} * lights + light];
         if (!(p.lit >> i & 1) && may_arrive(share)) share = Share::behind;
     }
@@ -258,7 +266,7 @@ void Growth::add_light(PointLanes& p, std::size_t l) const {
     if (!p.lit) return;
     Lanes radiance[3]{};
     if (const unsigned physical = p.lit & p.physical) {
-        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.view.layer_f0, p.cosine);
+        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.view.layer_f0, p.view.layer_f90, p.cosine);
         reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer, light.makes_highlights(), radiance);
     }
     for (unsigned rest = p.lit & ~p.physical; rest; rest &= rest - 1) {
@@ -372,10 +380,11 @@ void Growth::spawn_from_points(std::vector<Pending>& pending) {
             node.spawned = true;
             const Lobes& lobes = *p.lobes[i];
             if (node.depth >= settings_.depth || !lobes.goes_on()) continue;
-            ChildWeights weights = child_weights(lobes, cosines[i], node.inside);
+            const double over = coat_cosine(lobes, lane(p.viewer, i), cosines[i]);
+            ChildWeights weights = child_weights(lobes, cosines[i], over, node.inside);
             if (settings_.level > scene::Level::edges) {  // rough lobes will be sampled: the rays of smooth ones carry these alone
                 const Smooth smooth = smooth_lobes(lobes);
-                const ChildWeights alone = smooth_weights(lobes, cosines[i], node.inside);
+                const ChildWeights alone = smooth_weights(lobes, cosines[i], over, node.inside);
                 if (smooth.reflects) weights.reflected = alone.reflected;
                 if (smooth.refracts) weights.refracted = alone.refracted;
             }
@@ -395,6 +404,7 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
     for (std::size_t block = 0; block < points_.size(); ++block) {
         const PointLanes& p = points_[block];
         const Lanes cosine = dot(p.normal, p.viewer);
+        Vec3Lanes mirrors = p.normal;
         Lanes eta = Lanes{} + 1.0;  // index in front over index behind
         unsigned refracted = 0, straight = 0;
         for (int i = 0; i < p.count; ++i) {
@@ -407,8 +417,12 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
                 eta[i] = node.inside ? ior : 1 / ior;
             }
             if (from.way == Way::straight) straight |= 1u << i;
+            if (from.way == Way::reflected && has_own_coat(world_, node.material)) {
+                Lobes scratch;
+                set_lane(mirrors, i, mirror_normal(lobes_of(world_, tile_, from.parent, scratch), lane(p.normal, i)));
+            }
         }
-        Vec3Lanes direction = normalize(p.normal * (2.0 * cosine) - p.viewer);
+        Vec3Lanes direction = normalize(mirrors * (2.0 * dot(mirrors, p.viewer)) - p.viewer);
         // Interpolated normals can send a reflection into the surface: lift it to just above.
         const Lanes above = dot(direction, p.geometric);
         if (bits_of(above < 1e-4)) direction = select(above < 1e-4, normalize(direction + p.geometric * (1e-4 - above)), direction);
@@ -453,6 +467,7 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
             case Way::straight: tile_.straight.emplace(pending[i].parent, fresh_[i]); break;
         }
     }
+    for (const std::uint32_t i : sky_nodes_) light_sky(world_, tile_, i, {});
     gather(fresh_);
     find_lobes();
     light_points(settings_.level >= scene::Level::shadows, coherence);

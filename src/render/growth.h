@@ -25,7 +25,10 @@ constexpr LatticePoint point_of(std::uint64_t key) { return {static_cast<std::ui
 // Of a pixel corner, by its coordinates in the picture.
 constexpr LatticePoint corner_point(int x, int y) { return {static_cast<std::uint32_t>(x) << subpixel_bits, static_cast<std::uint32_t>(y) << subpixel_bits}; }
 
-geometry::Ray camera_ray(const World& world, LatticePoint point);
+inline geometry::Ray camera_ray(const World& world, LatticePoint point) {
+    constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
+    return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step);
+}
 
 // Work is cut into chunks of this many rays, between which a deadline is looked at.
 inline constexpr std::size_t chunk_size = 256;
@@ -81,6 +84,8 @@ private:
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
         unsigned sampled;             // lanes that take the light of lights with extent from their samples
+        unsigned catching;            // lanes of catchers (render/catcher.h)
+        float open[lane_count], all[lane_count];  // light that they caught so far
         unsigned layered;             // of those, lanes that ask for layer_at of the light
         FloatLanes sum[3];            // radiance so far, by channel
         // Of the current light:
@@ -97,6 +102,9 @@ private:
     void aim(PointLanes& points, std::size_t light) const;
     void leave_out_of_reach(const PointLanes& points, std::size_t light);
     void add_light(PointLanes& points, std::size_t light) const;
+    void begin_catcher(PointLanes& points, int lane) const;
+    void catch_light(PointLanes& points, std::size_t light) const;
+    void end_catcher(const PointLanes& points, int lane);
     void spawn_from_points(std::vector<Pending>& pending);
     bool occluded_as_last(std::size_t light, std::uint8_t depth, const geometry::Ray& ray);
     void trace_shadows(std::size_t light, accel::Coherence coherence);
@@ -115,7 +123,7 @@ private:
     std::vector<std::uint32_t> parents_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;
-    std::vector<std::uint32_t> fresh_;
+    std::vector<std::uint32_t> fresh_, sky_nodes_;
     std::vector<accel::Hit> last_occluder_;  // shadow cache: by light and depth
 };
 

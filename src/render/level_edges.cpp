@@ -121,12 +121,17 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
 
     if (tile.cursor == 0) {  // decide once, from what the stages before left
         const std::vector<Rgb> radiance = radiances(tile);
+        const std::vector<float> clear = clearness(tile);
         tile.todo.clear();
         for (std::uint32_t i = 0; i < places.size(); ++i) {
             Quad& quad = tile.quads[places[i].quad];
             std::array<Rgb, 4> corners;
             for (int k = 0; k < 4; ++k) corners[k] = perceived(radiance[quad.corners[k]]);
-            const bool split = differ(corners, static_cast<float>(growth.settings().contrast));
+            std::array<float, 4> clear_corners{};
+            for (int k = 0; k < 4 && !clear.empty(); ++k) clear_corners[k] = clear[quad.corners[k]];
+            const auto contrast = static_cast<float>(growth.settings().contrast);
+            const auto [least, most] = std::minmax_element(clear_corners.begin(), clear_corners.end());
+            const bool split = differ(corners, contrast) || *most - *least > contrast;
             if (split && quad.parts == no_node) {
                 tile.todo.push_back(i);
             } else if (!split && quad.parts != no_node) {  // of before an edit

@@ -51,7 +51,7 @@ private:
     void find_needed() {
         const int width = pixels_.width, height = pixels_.height;
         std::vector<Spread> spreads;
-        for (std::size_t i = 0; i < pixels_.count(); ++i) spreads.push_back(spread_of(world_, &tile_.lens_estimates[i * groups_]));
+        for (std::size_t i = 0; i < pixels_.count(); ++i) spreads.push_back(spread_of(world_, &tile_.lens_estimates[i * groups_], pilot));
         struct Sum {
             double mean = 0, variance = 0;
         };
@@ -73,7 +73,7 @@ private:
                 for (int j = top; j <= bottom; ++j) sum.mean += rows[at(x, j)].mean, sum.variance += rows[at(x, j)].variance;
                 const int count = (bottom - top + 1) * (std::min(width - 1, x + around) - std::max(0, x - around) + 1);
                 const Spread together{static_cast<float>(sum.mean / count), static_cast<float>(std::sqrt(sum.variance / count))};
-                const std::uint32_t needed = std::max(samples_needed(world_, spreads[at(x, y)], 1, 1), samples_needed(world_, together, 1, 1));
+                const std::uint32_t needed = samples_needed(world_, std::max(samples_wanted(world_, spreads[at(x, y)], 1, 1), samples_wanted(world_, together, 1, 1)));
                 needed_[at(x, y)] = is_own(pixels_.x0 + x, pixels_.y0 + y) ? needed : pilot;
             }
         }

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/catcher.h"
 #include "render/level_lens.h"
 #include "render/path_sampler.h"
 #include "render/surface_lobes.h"
 
 namespace crescente::render {
 namespace {
+
+// The last round: what an edit made outdated, and has been shown nevertheless, is sampled anew, a few nodes at a time to the end.
+constexpr double renewal = 0;
 
 std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
     std::vector<Stage> stages;
@@ -18,6 +22,7 @@ std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
         stages.push_back({level, double(samples), double(samples - before)});
         before = samples;
     }
+    stages.push_back({level, renewal, 1});
     return stages;
 }
 
@@ -35,8 +40,9 @@ public:
           tile_(growth.tile()),
           world_(growth.world()),
           groups_(estimate_groups(growth.world())),
-          bound_(static_cast<std::uint32_t>(stage.parameter)),
+          renews_(stage.parameter == renewal),
           most_(static_cast<std::uint32_t>(growth.settings().samples)),
+          bound_(renews_ ? most_ : static_cast<std::uint32_t>(stage.parameter)),
           sampler_(growth.world(), growth.tile().rays, growth.tile().tests) {}
 
     bool run(const Deadline& deadline) {
@@ -48,6 +54,7 @@ public:
             for (; end < tile_.nodes.size() && chunk_.size() < chunk_size; ++end) {
                 const auto i = static_cast<std::uint32_t>(end);
                 if (unseen_[i] || tile_.nodes[i].left_scene()) continue;
+                if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
                 forget_too_many(i);
                 if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i)) chunk_.push_back(i);
             }
@@ -81,6 +88,7 @@ private:
     }
 
     std::uint32_t goal(std::uint32_t i) const {
+        if (tile_.nodes[i].outdated) return tile_.samples[i];
         if (bound_ <= pilot) return bound_;
         return tile_.samples[i] < pilot ? pilot : std::min(bound_, samples_needed(world_, tile_, i));
     }
@@ -89,9 +97,7 @@ private:
     void forget_too_many(std::uint32_t i) {
         const std::uint32_t samples = tile_.samples[i];
         const std::uint32_t needed = most_ <= pilot ? most_ : samples >= pilot ? samples_needed(world_, tile_, i) : samples;
-        if (samples <= needed) return;
-        tile_.samples[i] = 0;
-        std::fill_n(tile_.estimates.begin() + static_cast<std::ptrdiff_t>(i * groups_), groups_, Estimate{});
+        if (samples > needed && !tile_.nodes[i].outdated) forget_samples(tile_, i);
     }
 
     // One sample of each after the other, so that neighbours are traced together. Whether there was time for all.
@@ -127,10 +133,12 @@ private:
         const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
         SamplePoint point;
         point.position = node.position;
-        point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), {}, node.inside};
+        point.facing = {{node.normal[0], node.normal[1], node.normal[2]}, decode_direction(node.geometric_normal), node.inside};
         point.to_viewer = normalize(viewer - node.position);
         point.offset = node.offset;
+        point.instance = node.instance;
         point.lobes = &lobes_of(world_, tile_, i, scratch);
+        point.catches = catches(world_, tile_, i);
         if (world_.filters_light || !world_.textured.empty()) point.path = path_length(world_, tile_, i);
         point.key = key_of(node.position);
         return point;
@@ -152,7 +160,8 @@ private:
     Tile& tile_;
     const World& world_;
     const std::size_t groups_;
-    const std::uint32_t bound_, most_;
+    const bool renews_;
+    const std::uint32_t most_, bound_;
     PathSampler sampler_;
     std::vector<std::uint8_t> unseen_;  // by node
     std::vector<std::uint32_t> chunk_, wanting_;

@@ -4,8 +4,9 @@
 
 namespace crescente::render {
 
-Light::Light(const scene::Light& light)
+Light::Light(const scene::Light& light, bool stands_in)
     : light_(light),
+      sampled_(stands_in || scene::has_extent(light)),
       axis_(normalize(light.direction)),
       upward_(light.measured ? scene::upward_of(light) : Vec3{}),
       color_(light.color * static_cast<float>(light.intensity)),

@@ -3,6 +3,7 @@
 
 #include "math/color.h"
 #include "math/vec_lanes.h"
+#include "render/light_links.h"
 #include "scene/light.h"
 
 namespace crescente::render {
@@ -26,12 +27,17 @@ struct Incident {
 
 class Light {
 public:
-    explicit Light(const scene::Light& light);
+    // stands_in: for light that levels that sample take from samples, as they do that of lights with extent.
+    explicit Light(const scene::Light& light, bool stands_in = false);
 
     Incident at(Vec3 point) const;
     template <class T>
     Reach<T> reach(const VecOf<T>& point) const;
-    bool has_extent() const { return scene::has_extent(light_); }
+    // Which instances it acts on; no_instance (a camera's ray): always.
+    void link(Receivers receivers) { receivers_ = std::move(receivers); }
+    const Receivers& receivers() const { return receivers_; }
+    bool acts_on(std::uint32_t instance) const { return render::acts_on(receivers_, instance); }
+    bool is_sampled() const { return sampled_; }
     const scene::Light& source() const { return light_; }
     Rgb color() const { return color_; }
     bool casts_shadows() const { return light_.shadows; }
@@ -48,6 +54,8 @@ private:
     T falloff(const T& distance) const;
 
     scene::Light light_;
+    Receivers receivers_;
+    bool sampled_;
     Vec3 axis_;
     Vec3 upward_;  // of a profile
     Rgb color_;

@@ -152,6 +152,22 @@ std::optional<LightHierarchy::Choice> LightHierarchy::choose(Vec3 from, double u
     return Choice{nodes_[node].member, chance};
 }
 
+// By slabs (Kay and Kajiya 1986), of a box that is a little larger: what shines may be flat.
+bool LightHierarchy::may_meet(const Bounds& box, const geometry::Ray& ray) {
+    const double room = 1e-9 * (box.largest_coordinate() + max_component(abs(ray.origin)));
+    double enter = ray.t_min, leave = ray.t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double lower = box.lower[axis] - room - ray.origin[axis], upper = box.upper[axis] + room - ray.origin[axis], slope = ray.direction[axis];
+        if (slope == 0) {
+            if (lower > 0 || upper < 0) return false;
+            continue;
+        }
+        const double a = lower / slope, b = upper / slope;
+        enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave * (1 + 1e-9);
+}
+
 double LightHierarchy::chance(std::uint32_t member, Vec3 from) const {
     if (nodes_.empty() || importance(nodes_[0].bounds, from) == 0) return 0;
     // In the order of choose(), from the leaf up: the product is the same but for rounding.

@@ -4,6 +4,7 @@
 
 #include "render/bsdf.h"
 #include "render/physical_view.h"
+#include "render/thin_film.h"
 
 namespace crescente::render {
 namespace {
@@ -19,6 +20,7 @@ float mirror_share_of(double roughness) {
 Lobes compile_classic(const scene::ClassicMaterial& m) {
     Lobes lobes;
     lobes.emission = m.emission + m.ambient;
+    lobes.shining = m.emission;
     lobes.diffuse = m.diffuse;
     lobes.ambient_diffuse = m.diffuse;
     lobes.albedo = m.diffuse;
@@ -45,6 +47,7 @@ Rgb multiple_reflection(Rgb fresnel, double kept) {
 
 Rgb mean_schlick(Rgb f0) { return f0 * (20.0f / 21) + gray(1.0f / 21); }
 
+constexpr float highest_f0 = 0.9999f;  // of a layer: what passes is then never less than nothing, by rounding
 constexpr double least_missing = 1e-6;  // of a lobe's light, to be asked where it is; beyond rounding
 
 RoughGlass rough_glass(double alpha, double ior) {
@@ -69,14 +72,34 @@ RoughGlass rough_glass(double alpha, double ior) {
     return glass;
 }
 
-// sums_of(alpha): split sums. whole: of the material without textures, null if this is it.
+Rgb least_of(Rgb color, float bound) { return {std::min(color.r, bound), std::min(color.g, bound), std::min(color.b, bound)}; }
+
+// The mean over all light that meets the surface, each direction by its cosine, of what it reflects under a thin film; and the f0 whose Schlick's approximation is at no cosine and in no channel less.
+struct FilmBounds {
+    Rgb mean;
+    float f0 = 0;
+};
+FilmBounds film_bounds(const Lobes& lobes) {
+    constexpr int steps = 24;
+    FilmBounds bounds;
+    for (int i = 0; i < steps; ++i) {
+        const double cosine = std::sqrt((i + 0.5) / steps), grazing = fifth_power(1 - cosine);
+        const Rgb reflected = thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0);
+        bounds.mean += reflected * (1.0f / steps);
+        bounds.f0 = std::max(bounds.f0, static_cast<float>((double{max_component(reflected)} - grazing) / (1 - grazing)));
+    }
+    return bounds;
+}
+
+// sums_of: of the facets, by the material's roughness and its stretch. whole: of the material without textures, null if this is it.
 template <class SumsOf>
 Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const Lobes* whole) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
     const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
     const double r0 = (m.ior - 1) / (m.ior + 1);
     Lobes lobes;
-    lobes.emission = m.emissive * opacity;
+    lobes.emission = lobes.shining = m.emissive * opacity;
+    lobes.catcher = m.catcher;
     lobes.coverage = opacity;
     const Rgb diffuse = m.base_color * (dielectric * (1 - static_cast<float>(m.transmission)) * opacity);
     lobes.diffuse = diffuse * static_cast<float>(1 / pi);
@@ -84,11 +107,33 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
     const bool conductor = metallic > 0 && !is_black(m.k);
     const Rgb metal_f0 = conductor ? fresnel_conductor(1, m.eta, m.k) : m.base_color;
     lobes.albedo = conductor ? mix(m.base_color, metal_f0, metallic) : m.base_color;
-    lobes.layer_f0 = static_cast<float>(r0 * r0);
-    const Rgb f0 = mix(gray(lobes.layer_f0), metal_f0, metallic) * opacity;
+    const Rgb layer_f0 = least_of(m.specular_color * static_cast<float>(r0 * r0), 1) * static_cast<float>(m.specular);
+    lobes.layer_f0 = std::min(max_component(layer_f0), highest_f0);
+    lobes.layer_f90 = static_cast<float>(m.specular);
+    const Rgb f0 = mix(layer_f0, metal_f0, metallic) * opacity;
+    lobes.coverage = (lobes.layer_f90 + (1 - lobes.layer_f90) * metallic) * opacity;
     lobes.roughness = static_cast<float>(m.roughness);
-    lobes.alpha = std::max(smoothest_alpha, lobes.roughness * lobes.roughness);
-    lobes.sums = sums_of(lobes.alpha);
+    lobes.alpha = lobes.alpha_along = std::max(smoothest_alpha, lobes.roughness * lobes.roughness);
+    if (m.anisotropy > 0) {
+        lobes.alpha_along = lobes.alpha + (1 - lobes.alpha) * static_cast<float>(m.anisotropy * m.anisotropy);
+        lobes.roughness = std::sqrt(std::sqrt(lobes.alpha * lobes.alpha_along));
+        const GrainSums sums = sums_of.with_grain(lobes.alpha_along, lobes.alpha);
+        lobes.sums = sums.mean, lobes.lean = sums.lean;
+    } else {
+        lobes.sums = sums_of(lobes.alpha);
+    }
+    if (m.iridescence > 0) {
+        lobes.film = static_cast<float>(m.iridescence), lobes.film_ior = static_cast<float>(m.iridescence_ior), lobes.film_thickness = static_cast<float>(m.iridescence_thickness);
+        lobes.film_f0 = mix(layer_f0, metal_f0, metallic), lobes.film_coverage = opacity;
+    }
+    const FilmBounds film = lobes.film > 0 ? film_bounds(lobes) : FilmBounds{};
+    if (lobes.film > 0) lobes.layer_f0 = std::min(std::max(lobes.layer_f0, film.f0), highest_f0), lobes.layer_f90 = 1;
+    if (!is_black(m.sheen_color)) {
+        lobes.sheen = m.sheen_color * opacity;
+        lobes.sheen_most = max_component(lobes.sheen);
+        lobes.sheen_alpha = std::max(least_sheen_alpha, static_cast<float>(m.sheen_roughness * m.sheen_roughness));
+        lobes.sheen_sums = sums_of.of_sheen(lobes.sheen_alpha);
+    }
     if (conductor) lobes.eta = m.eta, lobes.k = m.k, lobes.conductor_f0 = metal_f0, lobes.conductor = metallic * opacity;
     if (m.clearcoat > 0) {
         lobes.coat = static_cast<float>(m.clearcoat) * opacity;
@@ -100,7 +145,8 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
     lobes.highlight_lobe = HighlightLobe::ggx;
     const double kept = mean_of_sums(lobes.sums);
     if (metallic > 0 && 1 - kept > least_missing) {
-        lobes.multiple = multiple_reflection(conductor ? mean_fresnel_conductor(m.eta, m.k) : mean_schlick(m.base_color), kept) * (metallic * opacity);
+        const Rgb bare = conductor ? mean_fresnel_conductor(m.eta, m.k) : mean_schlick(m.base_color);
+        lobes.multiple = multiple_reflection(mix(bare, film.mean, lobes.film), kept) * (metallic * opacity);
         lobes.multiple_density = static_cast<float>(1 / (pi * (1 - kept)));
         lobes.multiple_cells = missing_cells(lobes.sums);
     }
@@ -113,13 +159,16 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         lobes.refraction = m.base_color * (transmission * opacity);
         lobes.straight = gray(1 - opacity);
         lobes.ior = m.ior;
+        lobes.dispersion = static_cast<float>(m.dispersion);
         lobes.attenuation = m.attenuation;
-        if (lobes.smooth()) lobes.glass = {};
+        lobes.glass_f0 = layer_f0, lobes.glass_f90 = static_cast<float>(m.specular);
+        lobes.tinted_glass = m.specular != 1 || m.specular_color != Rgb{1, 1, 1} || lobes.film > 0;
+        if (lobes.smooth() || lobes.tinted_glass || lobes.grained()) lobes.glass = {};  // what these lose is not given back
         else if (!whole) lobes.glass = rough_glass(lobes.alpha, m.ior);
         else if (whole->alpha == lobes.alpha && whole->ior == lobes.ior) lobes.glass = whole->glass;
     } else {
         lobes.fresnel = Fresnel::schlick;
-        lobes.mirror_share = mirror_share_of(m.roughness);
+        lobes.mirror_share = mirror_share_of(lobes.roughness);
         if (lobes.mirror_share > 0) lobes.mirror = f0;
         lobes.ambient_specular = f0;
         lobes.refraction = gray(1 - opacity);
@@ -133,12 +182,16 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
 }  // namespace
 
 std::vector<Lobes> compile(std::span<const scene::Material> materials) {
-    std::map<float, SplitSums> known_sums;  // by alpha: many materials have the same
-    const auto sums_of = [&known_sums](float alpha) -> const SplitSums& {
-        const auto [sums, unknown] = known_sums.try_emplace(alpha);
-        if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_split_sums() : split_sums(alpha);
-        return sums->second;
-    };
+    struct {
+        std::map<float, SplitSums> known;  // by alpha: many materials have the same
+        const SplitSums& operator()(float alpha) {
+            const auto [sums, unknown] = known.try_emplace(alpha);
+            if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_split_sums() : split_sums(alpha);
+            return sums->second;
+        }
+        static GrainSums with_grain(float along, float across) { return grain_sums(along, across); }
+        static SheenSums of_sheen(float alpha) { return sheen_sums(alpha); }
+    } sums_of;
     std::vector<Lobes> all;
     for (const scene::Material& material : materials) {
         const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model);
@@ -149,10 +202,18 @@ std::vector<Lobes> compile(std::span<const scene::Material> materials) {
 
 Lobes compile(const scene::Material& material, const Lobes& whole) {
     if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
-    const auto sums_of = [&whole](float alpha) {
-        if (alpha == whole.alpha) return whole.sums;
-        return alpha <= smoothest_alpha ? smooth_split_sums() : tabled_split_sums(alpha);
-    };
+    struct {
+        const Lobes& whole;
+        SplitSums operator()(float alpha) const {
+            if (alpha == whole.alpha && !whole.grained()) return whole.sums;
+            return alpha <= smoothest_alpha ? smooth_split_sums() : tabled_split_sums(alpha);
+        }
+        GrainSums with_grain(float along, float across) const {
+            if (along == whole.alpha_along && across == whole.alpha) return {whole.sums, whole.lean};
+            return tabled_grain_sums(along, across);
+        }
+        SheenSums of_sheen(float alpha) const { return alpha == whole.sheen_alpha && whole.has_sheen() ? whole.sheen_sums : tabled_sheen_sums(alpha); }
+    } sums_of{whole};
     return compile_physical(std::get<scene::PhysicalMaterial>(material.model), sums_of, &whole);
 }
 
@@ -182,23 +243,48 @@ double coat_reflectance(const Lobes& lobes, double cosine) {
     return lobes.coat * (double(coat_f0) * sum.scale + sum.bias);
 }
 
-Rgb conductor_beyond_schlick(const Lobes& lobes, double cosine) {
-    if (lobes.conductor == 0) return {};
-    return (fresnel_conductor(cosine, lobes.eta, lobes.k) - schlick(lobes.conductor_f0, 1, cosine)) * lobes.conductor;
+double sheen_reflectance(const Lobes& lobes, double cosine) {
+    return lobes.has_sheen() ? lobes.sheen_most * std::min(1.0, sheen_sum(lobes.sheen_sums, cosine)) : 0;
+}
+
+Rgb beyond_schlick(const Lobes& lobes, double cosine) {
+    Rgb more;
+    if (lobes.conductor > 0) more = (fresnel_conductor(cosine, lobes.eta, lobes.k) - schlick(lobes.conductor_f0, 1, cosine)) * lobes.conductor;
+    if (lobes.film > 0 && !lobes.transmits()) {
+        const Rgb bare = schlick(lobes.highlight, lobes.coverage, cosine) + more;
+        const Rgb under_film = thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0) * lobes.film_coverage;
+        more += (under_film + gray(1e-6f) - bare) * lobes.film;  // a little more, so that rounding does not make their sum less than nothing
+    }
+    return more;
+}
+
+Interface glass_interface(const Lobes& lobes, double cosine, double eta) {
+    const double fresnel = fresnel_dielectric(cosine, eta);
+    if (!lobes.tinted_glass || fresnel >= 1) return {gray(static_cast<float>(fresnel)), static_cast<float>(1 - fresnel)};
+    // The same seen from either side, so that as much light passes in one direction as in the other.
+    const double r = (lobes.ior - 1) / (lobes.ior + 1), r0 = r * r;
+    Rgb reflected = lobes.glass_f0 + (gray(lobes.glass_f90) - lobes.glass_f0) * static_cast<float>((fresnel - r0) / (1 - r0));
+    if (lobes.film > 0) {
+        const double outside = eta >= 1 ? cosine : std::sqrt(1 - (1 - cosine * cosine) / (eta * eta));
+        reflected = mix(reflected, thin_film_reflectance(outside, lobes.film_ior, lobes.film_thickness, lobes.glass_f0), lobes.film);
+    }
+    return {reflected, std::max(0.0f, 1 - max_component(reflected))};
 }
 
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {
-    if (lobes.fresnel != Fresnel::dielectric) return schlick(gray(lobes.layer_f0), 1, cosine).r;
-    return static_cast<float>(fresnel_dielectric(cosine, inside ? 1 / lobes.ior : lobes.ior));
+    if (lobes.fresnel != Fresnel::dielectric) return schlick(gray(lobes.layer_f0), lobes.layer_f90, cosine).r;
+    return max_component(glass_interface(lobes, cosine, inside ? 1 / lobes.ior : lobes.ior).reflected);
 }
 
 bool send_same_rays(const Lobes& a, const Lobes& b) {
     return a.mirror == b.mirror && a.refraction == b.refraction && a.straight == b.straight && a.ior == b.ior && a.fresnel == b.fresnel &&
            a.metal == b.metal && a.metal_share == b.metal_share && a.coverage == b.coverage && a.mirror_share == b.mirror_share &&
-           a.eta == b.eta && a.k == b.k && a.conductor == b.conductor && a.coat == b.coat && a.coat_alpha == b.coat_alpha;
+           a.eta == b.eta && a.k == b.k && a.conductor == b.conductor && a.coat == b.coat && a.coat_alpha == b.coat_alpha && a.sheen_most == b.sheen_most &&
+           a.sheen_alpha == b.sheen_alpha && a.film == b.film && a.film_ior == b.film_ior && a.film_thickness == b.film_thickness && a.film_f0 == b.film_f0 &&
+           a.glass_f0 == b.glass_f0 && a.glass_f90 == b.glass_f90 && a.dispersion == b.dispersion;
 }
 
-ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
+ChildWeights child_weights(const Lobes& lobes, double cosine, double coat_cosine, bool inside) {
     ChildWeights weights{lobes.mirror, lobes.refraction};
     const double eta = inside ? 1 / lobes.ior : lobes.ior;
     switch (lobes.fresnel) {
@@ -208,18 +294,22 @@ ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) {
             }
             break;
         case Fresnel::dielectric: {
-            const auto f = static_cast<float>(fresnel_dielectric(cosine, eta));
-            weights = {lobes.mirror * f, lobes.refraction * (1 - f)};
-            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine) + conductor_beyond_schlick(lobes, cosine);
+            const Interface facet = glass_interface(lobes, cosine, eta);
+            weights = {lobes.mirror * facet.reflected, lobes.refraction * facet.through};
+            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine) + beyond_schlick(lobes, cosine);
             break;
         }
         case Fresnel::schlick:
-            if (!is_black(lobes.mirror)) weights.reflected = (schlick(lobes.mirror, lobes.coverage, cosine) + conductor_beyond_schlick(lobes, cosine)) * lobes.mirror_share;
+            if (!is_black(lobes.mirror)) weights.reflected = (schlick(lobes.mirror, lobes.coverage, cosine) + beyond_schlick(lobes, cosine)) * lobes.mirror_share;
             break;
     }
+    if (lobes.has_sheen() && !inside) {
+        const auto below = static_cast<float>(1 - sheen_reflectance(lobes, cosine));
+        weights = {weights.reflected * below, weights.refracted * below};
+    }
     if (lobes.coat > 0 && !inside) {
-        const auto below = static_cast<float>(1 - coat_reflectance(lobes, cosine));
-        weights = {weights.reflected * below + schlick(gray(coat_f0), 1, cosine) * (lobes.coat * lobes.coat_mirror_share), weights.refracted * below};
+        const auto below = static_cast<float>(1 - coat_reflectance(lobes, coat_cosine));
+        weights = {weights.reflected * below + schlick(gray(coat_f0), 1, coat_cosine) * (lobes.coat * lobes.coat_mirror_share), weights.refracted * below};
     }
     return weights;
 }

@@ -9,6 +9,7 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "render/fresnel.h"
+#include "render/sheen.h"
 #include "render/split_sum.h"
 #include "scene/material.h"
 
@@ -38,14 +39,18 @@ struct RoughGlass {
 
 struct Lobes {
     Rgb emission;            // radiance, whatever the light
+    Rgb shining;             // of that what lights others: all but the ambient term of classic materials
     Rgb diffuse;             // radiance per unit of irradiance: albedo, over pi for physical materials
     Rgb highlight;           // weight of the highlight; for ggx: f0
     HighlightLobe highlight_lobe = HighlightLobe::none;
     float exponent = 0;      // phong, blinn
     float alpha = 1;         // ggx roughness
+    float alpha_along = 1;   // the same along the grain; not less than alpha, and the same without a grain
     float coverage = 1;      // what Schlick's terms rise to at grazing angles
-    float layer_f0 = 0;      // of the dielectric layer over the diffuse lobe of physical materials
+    float layer_f0 = 0;      // of the dielectric layer over the diffuse lobe of physical materials: the most of its channels
+    float layer_f90 = 1;
     SplitSums sums;          // physical: reflectance of the whole ggx lobe
+    SplitSums lean;          // with a grain: what is to be added along it, and taken away across (GrainSums)
     Rgb multiple;            // share of what is missing from those that comes back after more reflections between facets
     float multiple_density = 0;  // so much of it to each direction (1/sr), times what is missing there
     MissingCells multiple_cells{};
@@ -56,6 +61,20 @@ struct Lobes {
     float coat_alpha = smoothest_alpha;
     float coat_mirror_share = 1;
     SplitSums coat_sums{};
+    Rgb sheen;                  // of cloth's fibres, over all but the coat
+    float sheen_most = 0;       // of its channels
+    float sheen_alpha = 1;
+    SheenSums sheen_sums{};
+    float film = 0;             // share of the surface under a thin film
+    float film_ior = 1, film_thickness = 0;  // nm
+    float film_coverage = 1;    // of the surface itself
+    Rgb film_f0;                // below it, seen straight on
+    Rgb glass_f0;               // where transmits(): reflectance of its surface, and what it rises to. tinted_glass: these are not what the index says
+    float glass_f90 = 1;
+    bool tinted_glass = false;
+    float dispersion = 0;       // 20 over Abbe's number
+    Vec3 tangent;               // at one place of a surface with a grain: where it runs; any length; zero: any direction
+    Vec3 coat_normal;           // at one place: of the coat, towards the viewer, unit; zero: that of what is below
     Rgb mirror;              // weight of the reflected ray; with schlick: f0
     Rgb metal;               // dielectric: f0 of a metal beside it, rising to metal_share (Schlick)
     float metal_share = 0;
@@ -70,6 +89,7 @@ struct Lobes {
     float roughness = 0;     // of that blur
     Rgb shadow_filter;       // what passes a crossing in a shadow ray
     bool one_sided = false;  // rays do not meet the back: glTF culls it. Never what refracts: rays must leave a body again
+    bool catcher = false;    // render/catcher.h
     Rgb albedo;              // for the picture's albedo layer
 
     bool operator==(const Lobes&) const = default;
@@ -78,9 +98,11 @@ struct Lobes {
     bool refracts() const { return !is_black(refraction); }
     bool goes_on() const { return mirrors() || refracts() || !is_black(straight); }  // some ray may leave
     bool transmits() const { return layered() && fresnel == Fresnel::dielectric; }  // physical, of glass to some extent: its reflection follows Fresnel's equations
-    bool smooth() const { return alpha <= smoothest_alpha; }                       // physical: its facets are one mirror
+    bool smooth() const { return alpha_along <= smoothest_alpha; }                 // physical: its facets are one mirror
+    bool grained() const { return alpha_along != alpha; }
+    bool has_sheen() const { return sheen_most > 0; }
     bool coat_is_smooth() const { return coat_alpha <= smoothest_alpha; }
-    bool composed() const { return conductor > 0 || coat > 0; }                    // physical, of more than reflect_physical knows
+    bool composed() const { return conductor > 0 || coat > 0 || has_sheen() || film > 0 || grained(); }  // physical, of more than reflect_physical knows
     bool layered() const { return highlight_lobe == HighlightLobe::ggx; }            // diffuse light is what a reflecting layer lets in
 };
 
@@ -103,14 +125,35 @@ inline constexpr float coat_f0 = 0.04f;  // index 1.5
 // What a clear coat takes of the light that would reach what is below, at a cosine (0 to 1) outside of it.
 double coat_reflectance(const Lobes& lobes, double cosine);
 
-// What is to be added to Schlick's approximation for the facets of a metal given by its complex index.
-Rgb conductor_beyond_schlick(const Lobes& lobes, double cosine);
+// The same of the fibres of cloth, which take as much of all colours.
+double sheen_reflectance(const Lobes& lobes, double cosine);
 
-// Weights of the two rays that a node may spawn, for a ray that meets the surface at `cosine` (>= 0), from inside or outside.
+// What is to be added to Schlick's approximation for the facets of a metal given by its complex index, and of what is under a thin film and lets no light through.
+Rgb beyond_schlick(const Lobes& lobes, double cosine);
+
+// What a facet of the interface of a dielectric that light goes through reflects, and the share that it lets through; of either side, eta: index behind over index in front.
+struct Interface {
+    Rgb reflected;
+    float through;
+};
+Interface glass_interface(const Lobes& lobes, double cosine, double eta);
+
+// Weights of the two rays that a node may spawn, for a ray that meets the surface at `cosine` (>= 0), and its coat at another, from inside or outside.
 struct ChildWeights {
     Rgb reflected, refracted;
 };
-ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside);
+ChildWeights child_weights(const Lobes& lobes, double cosine, double coat_cosine, bool inside);
+inline ChildWeights child_weights(const Lobes& lobes, double cosine, bool inside) { return child_weights(lobes, cosine, cosine, inside); }
+
+// Normal of the mirror ray that a surface of this normal sends: the coat's, if the mirror is the coat's; one ray stands for both.
+inline Vec3 mirror_normal(const Lobes& lobes, Vec3 normal) {
+    return lobes.coat_normal != Vec3{} && (lobes.coat_is_smooth() || !lobes.smooth()) ? lobes.coat_normal : normal;
+}
+
+// Cosine at which a viewer sees the coat, whose normal may be another than that of what is below, which he sees at `cosine`.
+inline double coat_cosine(const Lobes& lobes, Vec3 to_viewer, double cosine) {
+    return lobes.coat_normal == Vec3{} ? cosine : std::clamp(dot(lobes.coat_normal, to_viewer), 0.0, 1.0);
+}
 
 // Whether both send the same rays with the same weights from every hit.
 bool send_same_rays(const Lobes& a, const Lobes& b);

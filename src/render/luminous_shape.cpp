@@ -99,7 +99,8 @@ std::optional<ShapeSample> LuminousShape::sample_sphere(Vec3 from, double u0, do
 double LuminousShape::pdf(Vec3 from, Vec3 point) const {
     if (form_ == Form::sphere) {
         const double radius = a_.x, distance = length(origin_ - from);
-        if (distance > radius) return 1 / (2 * pi * versine_of(radius, distance));
+        // From outside the far side, which a surface with coverage shows, is never sampled.
+        if (distance > radius) return dot(point - origin_, from - point) > 0 ? 1 / (2 * pi * versine_of(radius, distance)) : 0;
         return two_sided_ && distance < radius ? 1 / (4 * pi) : 0;
     }
     if (!(area_ > 0) || !faces(from)) return 0;

@@ -28,14 +28,14 @@ std::vector<std::uint32_t> moving_instances(const World& world) {
 
 // All of a world but its accelerator, and of its scene but what was derived from it. Every member is named, so that a new one cannot be forgotten here.
 std::unique_ptr<World> copy_of(const World& world) {
-    const auto& [scene, instances, node_of_instance, identity, boxes, shape_boxes, first_slot, slots, one_sided, lobes, blurred_lobes, lights, environment, camera, lens,
+    const auto& [scene, instances, node_of_instance, identity, boxes, shape_boxes, first_slot, slots, one_sided, lobes, blurred_lobes, lights, luminous, environment, camera, lens,
                  moments, accelerator, filters_light, absorbs, camera_media, emitters, textured, blurred_textured, bends_normals] = world;
     scene::Scene bare;
     bare.materials = scene.materials, bare.camera = scene.camera, bare.settings = scene.settings, bare.unit = scene.unit;
     auto copy = std::make_unique<World>(std::move(bare), camera);
     copy->instances = instances, copy->node_of_instance = node_of_instance, copy->identity = identity, copy->boxes = boxes, copy->shape_boxes = shape_boxes;
     copy->first_slot = first_slot, copy->slots = slots, copy->one_sided = one_sided, copy->lobes = lobes, copy->blurred_lobes = blurred_lobes;
-    copy->lights = lights, copy->environment = environment, copy->lens = lens, copy->filters_light = filters_light, copy->absorbs = absorbs;
+    copy->lights = lights, copy->luminous = luminous, copy->environment = environment, copy->lens = lens, copy->filters_light = filters_light, copy->absorbs = absorbs;
     copy->camera_media = camera_media, copy->emitters = emitters, copy->textured = textured, copy->blurred_textured = blurred_textured;
     copy->bends_normals = bends_normals;
     return copy;  // its instances look at the sides of the original's slots, which stay where they are

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/low_discrepancy.h"
+#include "render/catcher.h"
 #include "render/estimates.h"
 #include "render/hit_surface.h"
 #include "render/medium.h"
@@ -21,16 +22,27 @@ constexpr double least_share = 1e-6;       // that is divided by
 constexpr int sure_steps = 2;              // after so many, paths of little throughput may end
 
 // What the numbers of a sample are for: each use has a sequence of its own.
-enum class Use : std::uint64_t { scatter, light, lamp, first_light };
+enum class Use : std::uint64_t { scatter, light, lamp, first_light, band };
 std::array<double, 4> numbers(const SamplePoint& point, int depth, Use use, std::size_t which = 0) {
     const std::uint64_t place = static_cast<std::uint64_t>(depth) << 32 | static_cast<std::uint64_t>(use) << 24 | which;
     return low_discrepancy(point.key ^ mix_bits(place + 1), point.index);
 }
 
+// Light of one of three bands of the spectrum, for all of it.
+Rgb only_band(int band) { return {band == 0 ? 3.0f : 0, band == 1 ? 3.0f : 0, band == 2 ? 3.0f : 0}; }
+
+// Which is followed from where a path meets what disperses: all light, and with it its reflection and what lamps send there.
+int chosen_band(const SamplePoint& point, int depth) { return std::min(2, static_cast<int>(3 * numbers(point, depth, Use::band)[0])); }
+
 // Power heuristic with exponent 2: the share of a direction drawn with density a that could also have been drawn with density b.
 double power_share(double a, double b) { return a <= 0 ? 0 : 1 / (1 + (b / a) * (b / a)); }
 
 bool bends(const Lobes& lobes) { return lobes.refracts() && lobes.ior != 1; }
+
+// Of light from a direction, as a matt surface takes it.
+float cosine_of(const Facing& facing, Vec3 direction) {
+    return dot(facing.geometric, direction) > 0 ? static_cast<float>(std::max(0.0, dot(facing.shading, direction))) : 0.0f;
+}
 
 Rgb over(Rgb color, double divisor) { return color * static_cast<float>(1 / divisor); }
 
@@ -43,7 +55,7 @@ Rgb absorbed(const Lobes& lobes, double length) {
 
 Rgb emission_factor(const Lobes& textured, const Lobes& plain) {
     const auto channel = [](float x, float y) { return y == 0 ? 0 : x / y; };
-    const Rgb a = textured.emission, b = plain.emission;
+    const Rgb a = textured.shining, b = plain.shining;
     return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
 }
 
@@ -56,7 +68,7 @@ PathSampler::PathSampler(const World& world, RayCounts& rays, TestCounts& tests)
       goes_on_(settings_.level >= scene::Level::indirect) {}
 
 void PathSampler::sample(std::span<const SamplePoint> points, std::span<SampledLight> light) {
-    light_ = light;
+    points_ = points, light_ = light;
     std::fill(light_.begin(), light_.end(), SampledLight{});
     begin(points);
     trace_connections();
@@ -74,12 +86,16 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::size_t k = 0; k < sampled; ++k) {
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const SamplePoint& p = points[i];
-            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path};
+            const bool splits = disperses(*p.lobes);
+            if (splits) banded_ = in_band(*p.lobes, chosen_band(p, 0));
+            const Rgb colors = splits ? only_band(chosen_band(p, 0)) : Rgb{1, 1, 1};
+            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, splits ? &banded_ : p.lobes, p.path, p.instance, p.catches};
             const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
             const auto u = numbers(p, 0, Use::first_light, group);
             if (const auto arrived = sample_group(vertex, group, chance, false, false, {u[0], u[1], u[2]})) {
-                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light, {}, p.path, arrived->share,
-                                 arrived->value.glossy * arrived->light});
+                if (p.catches) add_unshadowed(i, group, arrived->value.diffuse * arrived->light * colors);
+                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light * colors, {}, p.path, arrived->share,
+                                 arrived->value.glossy * arrived->light * colors});
             }
         }
     }
@@ -93,18 +109,23 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
         const auto u = numbers(p, 0, Use::scatter);
-        const auto s = sample_scatter(*p.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
+        const bool splits = disperses(*p.lobes);
+        if (splits) banded_ = in_band(*p.lobes, chosen_band(p, 0));
+        const auto s = sample_scatter(splits ? banded_ : *p.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
         if (!s) continue;
         Path path{};
         path.point = i;
-        path.diffuse = over(s->value.diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
+        const Rgb diffuse = p.catches ? gray(cosine_of(p.facing, s->direction)) : s->value.diffuse;
+        path.diffuse = over(diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
         path.throughput = path.throughput_on = {1, 1, 1};
-        path.from = p.position, path.length = p.path;
-        path.pdf = s->value.pdf;
+        path.from = p.position, path.sender = p.instance, path.length = p.path;
+        if (splits) path.band = static_cast<std::uint8_t>(chosen_band(p, 0) + 1), path.diffuse *= only_band(path.band - 1), path.glossy *= only_band(path.band - 1);
+        path.pdf = s->delta ? 0 : s->value.pdf;
+        path.sharp = path.clear = s->delta;
         path.chance = chance;
         path.scattered = s->part == Part::diffuse;
         paths_.push_back(path);
-        rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path}, s->direction));
+        rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance}, s->direction));
     }
 }
 
@@ -126,7 +147,14 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             Path path = paths_[block + i];
             const Ray& ray = rays_[block + i];
             const Hit& hit = hits_[block + i];
-            meet_lights(path, ray, hit);
+            if (path.depth == 0 && points[path.point].catches) {
+                catch_all(path, ray);
+                Path direct = path;
+                direct.glossy = {};  // objects alone are mirrored
+                meet_lights(direct, ray, hit);
+            } else {
+                meet_lights(path, ray, hit);
+            }
             if (!hit.found()) continue;
             const std::uint32_t material = at.material[i];
             const bool blurs = path.scattered && !world_.blurred_lobes.empty();
@@ -134,16 +162,18 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             if (textured && blurs) textured = world_.blurred_textured[material].get();
             const Lobes& plain = (blurs ? world_.blurred_lobes : world_.lobes)[material];
             const TexturePoint place = textured ? texture_point(world_, ray, hit, path.length) : TexturePoint{};
-            const Lobes own = textured ? textured->lobes_at(place) : Lobes{};
-            const Lobes& lobes = textured ? own : plain;
-            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t};
+            if (textured) own_ = textured->lobes_at(place);
+            const Lobes& lobes = textured ? own_ : plain;
+            Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t, hit.instance};
             if (textured && textured->has_relief()) vertex.facing.shading = textured->normal_at(place, vertex.facing.shading);
             if (vertex.facing.inside && !is_black(lobes.attenuation)) {
                 const Rgb rest = absorbed(lobes, hit.t);
                 path.throughput *= rest, path.throughput_on *= rest;
             }
             if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, material, vertex.position, path.from)) {
-                take(path, *emitted, textured ? emission_factor(lobes, plain) : Rgb{1, 1, 1});
+                const Rgb texture = textured ? emission_factor(lobes, plain) : Rgb{1, 1, 1};
+                if (path.depth == 0 && points[path.point].catches) take_caught(path, *emitted, texture);
+                else take(path, *emitted, texture);
             }
             if (!goes_on_ && path.depth == 0) path.diffuse = {};
             path.throughput = path.throughput_on;
@@ -157,10 +187,9 @@ void PathSampler::step(std::span<const SamplePoint> points) {
 void PathSampler::meet_lights(const Path& path, const Ray& ray, const Hit& hit) {
     Ray way = ray;
     way.t_max = hit.t;
-    met_.clear();
-    world_.emitters.lights_on(way, path.from, met_);
-    for (const Emitted& emitted : met_) take(path, emitted);
+    world_.emitters.lights_on(way, path.from, path.sender, [&](const Emitted& emitted) { take(path, emitted); });
     if (hit.found()) return;
+    if (path.clear) return add(path.point, groups_, {}, path.glossy * path.throughput * environment_radiance(world_.environment, ray.direction));
     if (const auto sky = world_.emitters.environment(ray.direction)) take(path, *sky);
 }
 
@@ -169,14 +198,38 @@ void PathSampler::take(const Path& path, const Emitted& emitted, Rgb texture) {
     if (!is_met(emitted.group)) return;
     const bool unlit = path.sharp && !settings_.caustics;
     if (unlit && path.scattered_later) return;
-    const double share = path.pdf == 0 ? 1 : power_share(path.pdf, path.chance * emitted.pdf);
-    const Rgb light = path.throughput * emitted.radiance * texture * static_cast<float>(share);
+    const Rgb light = path.throughput * emitted.radiance * texture * static_cast<float>(share_of(path, emitted));
     add(path.point, emitted.group, unlit ? Rgb{} : path.diffuse * light, path.glossy * light);
 }
 
+// What of light that a path met is its own, besides what was sampled where its ray starts.
+double PathSampler::share_of(const Path& path, const Emitted& emitted) const { return path.pdf == 0 ? 1 : power_share(path.pdf, path.chance * emitted.pdf); }
+
+// All that a catcher's ray would meet if nothing were in its way.
+void PathSampler::catch_all(const Path& path, const Ray& ray) {
+    const auto add_one = [&](const Emitted& emitted) {
+        if (is_met(emitted.group)) add_unshadowed(path.point, emitted.group, path.diffuse * emitted.radiance * static_cast<float>(share_of(path, emitted)));
+    };
+    world_.emitters.lights_on(ray, path.from, path.sender, add_one);
+    if (const auto sky = world_.emitters.environment(ray.direction)) add_one(*sky);
+}
+
+// An emissive object on a catcher's ray lights it, and is mirrored: directions to it do not count for that.
+void PathSampler::take_caught(const Path& path, const Emitted& emitted, Rgb texture) {
+    const Rgb light = emitted.radiance * texture;
+    const auto share = is_met(emitted.group) ? static_cast<float>(share_of(path, emitted)) : 0.0f;
+    add(path.point, emitted.group, path.diffuse * light * share, path.glossy * light);
+    add_unshadowed(path.point, emitted.group, path.diffuse * light * share);
+}
+
 // Light at a vertex of a path, and its next ray.
-void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& point) {
+void PathSampler::go_on(Vertex vertex, Path path, const SamplePoint& point) {
     const int depth = ++path.depth;
+    if (disperses(*vertex.lobes)) {
+        if (path.band == 0) path.band = static_cast<std::uint8_t>(chosen_band(point, depth) + 1), path.throughput *= only_band(path.band - 1);
+        banded_ = in_band(*vertex.lobes, path.band - 1);
+        vertex.lobes = &banded_;
+    }
     const bool last = depth >= settings_.depth;
     const auto scatter_numbers = numbers(point, depth, Use::scatter);
     if (groups_ > 0) {
@@ -207,9 +260,10 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
     path.throughput *= all;
     const bool straight = s->delta && s->crosses && (!bends(*vertex.lobes) || s->direction == -vertex.to_viewer);
     if (!straight) {  // else its ray goes on as if there were nothing
-        path.from = vertex.position, path.length = vertex.path;
+        path.from = vertex.position, path.sender = vertex.instance, path.length = vertex.path;
         path.pdf = s->delta ? 0 : s->value.pdf;
         path.chance = groups_ == 0 ? 0 : 1.0 / static_cast<double>(groups_);
+        path.clear = path.clear && s->delta;
         path.sharp = s->delta || (s->part == Part::glossy && bends(*vertex.lobes));  // what comes so through glass, shadow rays have told
         path.scattered_later = path.scattered_later || s->part == Part::diffuse;
         path.scattered = path.scattered || path.scattered_later;
@@ -220,10 +274,12 @@ void PathSampler::go_on(const Vertex& vertex, Path path, const SamplePoint& poin
 
 // A direction to a group, weighed against the directions that the material draws. chance: that the group is sampled here. last: no direction is drawn here.
 std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const {
+    if (!world_.emitters.acts_on(group, v.instance)) return std::nullopt;
     const auto sample = world_.emitters.sample(group, v.position, u);
     if (!sample || !(sample->pdf > 0)) return std::nullopt;
     Arrived arrived{scatter(*v.lobes, v.facing, v.to_viewer, sample->direction, with_delta), sample->direction, sample->distance, {}};
     if (!world_.emitters.makes_highlights(group)) arrived.value.glossy = {};
+    if (v.catches) arrived.value.diffuse = gray(cosine_of(v.facing, sample->direction)), arrived.value.glossy = {};
     if (is_black(arrived.value.diffuse) && is_black(arrived.value.glossy)) return std::nullopt;
     const double density = chance * sample->pdf;
     if (is_met(group) && !last) arrived.share = power_share(density, arrived.value.pdf);
@@ -243,7 +299,7 @@ std::optional<PathSampler::Arrived> PathSampler::sample_lamp(const Vertex& v, do
     float sum = 0;
     for (std::size_t l = 0; l < count; ++l) {
         const Light& lamp = world_.lights[l];
-        if (!lamp.has_extent()) sum += lamps_[l] = luminance(bring(lamp, lamp.at(v.position)));
+        if (!lamp.is_sampled() && lamp.acts_on(v.instance)) sum += lamps_[l] = luminance(bring(lamp, lamp.at(v.position)));
     }
     if (!(sum > 0) || !std::isfinite(sum)) return std::nullopt;
     float rest = static_cast<float>(u) * sum;
@@ -309,8 +365,14 @@ void PathSampler::trace_connections() {
 
 void PathSampler::add(std::uint32_t point, std::size_t group, Rgb diffuse, Rgb glossy) {
     SampledLight& sum = light_[point * (groups_ + 1) + group];
+    if (points_[point].catches) diffuse = as_caught(luminance(diffuse), 0);
     if (is_finite(diffuse)) sum.diffuse += diffuse;
     if (is_finite(glossy)) sum.glossy += glossy;
+}
+
+void PathSampler::add_unshadowed(std::uint32_t point, std::size_t group, Rgb diffuse) {
+    const Rgb caught = as_caught(0, luminance(diffuse));
+    if (is_finite(caught)) light_[point * (groups_ + 1) + group].diffuse += caught;
 }
 
 }  // namespace crescente::render

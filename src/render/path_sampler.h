@@ -22,7 +22,9 @@ struct SamplePoint {
     Vec3 to_viewer;
     double offset = 0;   // how far from position, along the geometric normal, rays may start
     const Lobes* lobes = nullptr;
+    bool catches = false;     // as render/catcher.h says: only light that is kept off, and other objects' light that it mirrors, are wanted
     double path = 0;          // length of the way from the camera, m
+    std::uint32_t instance = no_instance;  // whose surface it is
     std::uint64_t key = 0;    // of its random numbers
     std::uint32_t index = 0;  // of the sample
     bool lamps = false;       // lamps without extent that shine on the point are not known otherwise: one of them is sampled
@@ -44,7 +46,8 @@ public:
     PathSampler(const World& world, RayCounts& rays, TestCounts& tests);
 
     // One sample of every point: light[i * groups + g] is what point i gets by group g of estimate_groups(). Lamps without extent are left out where they shine on
-    // the point itself (unless it asks for them), and so are its perfectly smooth lobes: these are known without sampling. Light that would not be finite is left out.
+    // the point itself (unless it asks for them), and so are its perfectly smooth lobes: these are known without sampling. Light that would not be finite is left out. The diffuse part
+    // of points that catch is as_caught().
     void sample(std::span<const SamplePoint> points, std::span<SampledLight> light);
 
 private:
@@ -54,12 +57,15 @@ private:
         Rgb throughput;       // from the end to the point
         Rgb throughput_on;    // the same for what is not light at the next hit already
         Vec3 from;            // where the ray starts
+        std::uint32_t sender;  // the instance there
         double length;        // of the way from the camera to there, m
         double pdf;           // of the ray's direction; 0: a smooth lobe's
         double chance;        // that a light was also sampled where the ray starts
         std::uint8_t depth;
+        std::uint8_t band;    // 1 to 3: of the spectrum, once something disperses; 0: all
         bool scattered;       // some lobe on the way was diffuse: what follows is blurred
         bool scattered_later;  // some lobe after the first point's was
+        bool clear;           // smooth lobes alone sent it, from the first point on: around the scene it sees what the rays of nodes see, whatever strength that has as light
         bool sharp;           // a mirror or a body that bends light sent it: unless caustics are asked for, diffuse surfaces do not get lights that it meets
     };
     struct Connection {  // a shadow ray, and what it brings if nothing is in the way
@@ -77,6 +83,8 @@ private:
         double offset;
         const Lobes* lobes;
         double path;  // length of the way from the camera, m
+        std::uint32_t instance;
+        bool catches = false;
     };
     struct Arrived {  // light of a group at a vertex, and what this sends back of it
         Scattered value;
@@ -89,12 +97,16 @@ private:
     void step(std::span<const SamplePoint> points);
     void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);
     void take(const Path& path, const Emitted& emitted, Rgb texture = {1, 1, 1});
-    void go_on(const Vertex& vertex, Path path, const SamplePoint& point);
+    void take_caught(const Path& path, const Emitted& emitted, Rgb texture);
+    void go_on(Vertex vertex, Path path, const SamplePoint& point);
     std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const;
     std::optional<Arrived> sample_lamp(const Vertex& vertex, double u);
     void queue(const Vertex& vertex, const Arrived& arrived, const Connection& connection);
     void trace_connections();
     void add(std::uint32_t point, std::size_t group, Rgb diffuse, Rgb glossy);
+    void catch_all(const Path& path, const geometry::Ray& ray);
+    void add_unshadowed(std::uint32_t point, std::size_t group, Rgb diffuse);
+    double share_of(const Path& path, const Emitted& emitted) const;
     bool is_met(std::size_t group) const;
     geometry::Ray ray_from(const Vertex& vertex, Vec3 direction) const;
 
@@ -104,13 +116,14 @@ private:
     TestCounts& tests_;
     const std::size_t groups_;
     const bool goes_on_;  // diffuse light comes from other surfaces too
+    std::span<const SamplePoint> points_;
     std::span<SampledLight> light_;
+    Lobes own_, banded_;  // of the textured, or the dispersing, material at hand
     std::vector<Path> paths_, next_;
     std::vector<geometry::Ray> rays_, next_rays_, shadow_rays_;
     std::vector<accel::Hit> hits_;
     std::vector<Connection> connections_;
     std::vector<accel::Crossing> crossings_;
-    std::vector<Emitted> met_;
     std::vector<float> lamps_;  // how bright each is at a vertex
 };
 

@@ -18,17 +18,17 @@ struct LayerAt {
 
 inline LayerAt<double> layer_at(const Lobes& lobes, double cosine) {
     const SplitSum sum = split_sum(lobes.sums, cosine);
-    return {double(sum.scale) * lobes.layer_f0 + sum.bias, sum.missing()};
+    return {double(sum.scale) * lobes.layer_f0 + double(sum.bias) * lobes.layer_f90, sum.missing()};
 }
 
 // The same for eight points, each of its own lobes, to the bit. 0 in lanes whose bit is not set.
-inline LayerAt<Lanes> layer_at(const Lobes* const (&lobes)[lane_count], unsigned lanes, const Lanes& layer_f0, const Lanes& cosine) {
+inline LayerAt<Lanes> layer_at(const Lobes* const (&lobes)[lane_count], unsigned lanes, const Lanes& layer_f0, const Lanes& layer_f90, const Lanes& cosine) {
     if (!lanes) return {Lanes{}, Lanes{}};
     const SplitSums* sums[lane_count] = {};
     for (unsigned rest = lanes; rest; rest &= rest - 1) sums[__builtin_ctz(rest)] = &lobes[__builtin_ctz(rest)]->sums;
     const SplitSumLanes sum = split_sum(sums, lanes, cosine);
     const Lanes scale = to_doubles(sum.scale), bias = to_doubles(sum.bias);
-    return {blend(lanes, scale * layer_f0 + bias, Lanes{}), blend(lanes, greater(Lanes{}, 1.0 - scale - bias), Lanes{})};
+    return {blend(lanes, scale * layer_f0 + bias * layer_f90, Lanes{}), blend(lanes, greater(Lanes{}, 1.0 - scale - bias), Lanes{})};
 }
 
 template <class T>
@@ -36,7 +36,7 @@ struct PhysicalView {
     T facing;          // cosine between normal and viewer
     T n_v;             // the same, kept off 0
     T alpha2, smith;   // of ggx; its root for the viewer's side
-    T layer_f0;        // of the diffuse lobe
+    T layer_f0, layer_f90;  // of the diffuse lobe
     LayerAt<T> layer;  // towards the viewer; 0 where it does not matter
     T coverage;
     T diffuse[3], highlight[3];
@@ -49,7 +49,7 @@ inline bool asks_for_layer(const Lobes& lobes) { return !is_black(lobes.diffuse)
 // The values of one point; facing: cosine between the shading normal and the viewer.
 inline PhysicalView<double> physical_view(const Lobes& lobes, double facing) {
     const double n_v = std::clamp(facing, 1e-4, 1.0), alpha2 = double(lobes.alpha) * lobes.alpha;
-    PhysicalView<double> view{facing, n_v, alpha2, std::sqrt(n_v * n_v * (1 - alpha2) + alpha2), lobes.layer_f0, {}, lobes.coverage,
+    PhysicalView<double> view{facing, n_v, alpha2, std::sqrt(n_v * n_v * (1 - alpha2) + alpha2), lobes.layer_f0, lobes.layer_f90, {}, lobes.coverage,
                               {lobes.diffuse.r, lobes.diffuse.g, lobes.diffuse.b}, {lobes.highlight.r, lobes.highlight.g, lobes.highlight.b}, {}};
     if (!asks_for_layer(lobes)) return view;
     view.layer = layer_at(lobes, n_v);
@@ -58,7 +58,7 @@ inline PhysicalView<double> physical_view(const Lobes& lobes, double facing) {
 }
 
 inline void set_lane(PhysicalView<Lanes>& view, int i, const PhysicalView<double>& one) {
-    view.facing[i] = one.facing, view.n_v[i] = one.n_v, view.alpha2[i] = one.alpha2, view.smith[i] = one.smith, view.layer_f0[i] = one.layer_f0;
+    view.facing[i] = one.facing, view.n_v[i] = one.n_v, view.alpha2[i] = one.alpha2, view.smith[i] = one.smith, view.layer_f0[i] = one.layer_f0, view.layer_f90[i] = one.layer_f90;
     view.layer.kept[i] = one.layer.kept, view.layer.missing[i] = one.layer.missing, view.coverage[i] = one.coverage;
     for (int k = 0; k < 3; ++k) view.diffuse[k][i] = one.diffuse[k], view.highlight[k][i] = one.highlight[k], view.multiple[k][i] = one.multiple[k];
 }
@@ -77,7 +77,7 @@ void reflect_physical(const PhysicalView<T>& view, const T& cosine, const T& bet
     // Cosines of the half vector, without computing it: the sum of two unit vectors is twice as long as its projection on either.
     const T v_h = square_root(lesser(greater(0.5 + 0.5 * between, zero + 1e-12), one));
     const T grazing = fifth_power(1.0 - v_h);
-    const T fresnel = view.layer_f0 + (1.0 - view.layer_f0) * grazing;
+    const T fresnel = view.layer_f0 + (view.layer_f90 - view.layer_f0) * grazing;
     const T passes = cosine * (1.0 - greater(fresnel, greater(view.layer.kept, light.kept)));
     for (int k = 0; k < 3; ++k) radiance[k] = view.diffuse[k] * passes;
     if (!with_highlight) return;

@@ -31,14 +31,15 @@ public:
         const std::size_t count = tile_.nodes.size();
         lost_.assign(count, 0), spawn_again_.assign(count, 0), bends_.assign(count, 0);
         if (change_.resamples && is_sampled(tile_)) take_samples_back();
-        touched_ = touched_ || !tile_.lens_samples.empty();  // whose light is not that of nodes
+        outdates_ = change_.outdates_samples && !tile_.samples.empty();
+        touched_ = touched_ || outdates_ || !tile_.lens_samples.empty();  // the light of lens samples is not that of nodes
         const bool outdated = tile_.pixels_stage > tile_.stage;  // a picture of trees that are not here any more
         constexpr std::size_t few = 32;
         const bool untidy = tile_.forgotten * few > count;
         const bool rays_may_end_elsewhere = !change_.same_geometry;
         if (rays_may_end_elsewhere || untidy || change_.sky) place_roots();
         if (rays_may_end_elsewhere || untidy) find_lost_rays();
-        if (lost_roots_) tile_.pixels = develop(tile_);
+        if (lost_roots_) keep_picture(tile_);
         if (lost_roots_ || outdated) tile_.pixels_stage = tile_.lit ? -1 : 0;
         if (change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
             update_nodes();
@@ -54,7 +55,7 @@ public:
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
         if (tile_.pixels_stage > tile_.stage) tile_.pixels_stage = tile_.lit ? -1 : 0;  // of a longer plan, maybe
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
-        if (watched_ && touched_ && !lost_roots_ && !tile_.unsettled) tile_.pixels = develop(tile_);
+        if (watched_ && touched_ && !lost_roots_ && !tile_.unsettled) keep_picture(tile_);
         if (touched_) tile_.previewed_until = 0;
         if (lost_any_) compact();
         if (rays_may_end_elsewhere || untidy) tile_.forgotten = 0;
@@ -67,7 +68,7 @@ private:
     void take_samples_back() {
         touched_ = tile_.resamples = true;
         if (estimate_groups(before_) == estimate_groups(now_)) return;
-        if (watched_ && !tile_.unsettled) tile_.pixels = develop(tile_);
+        if (watched_ && !tile_.unsettled) keep_picture(tile_);
         forget_samples(tile_);
     }
 
@@ -123,7 +124,7 @@ private:
             if (lost_[i]) continue;
             Node& node = tile_.nodes[i];
             if (node.left_scene()) {
-                if (change_.sky) update_sky(node, point_of(place_[i]));
+                if (change_.sky) update_sky(i, point_of(place_[i]));
                 continue;
             }
             node.instance = change_.instance_now[node.instance];
@@ -141,12 +142,17 @@ private:
             if (lobes.light || change_.all_lit) relight(node);
             if (lobes.rays || change_.depth) spawn_again_[i] = spawns_again_ = true;
             if (lobes.bends) bends_[i] = true;
+            if (!outdates_ || i >= tile_.samples.size() || tile_.samples[i] == 0) continue;
+            if (lobes.light) forget_samples(tile_, i);
+            else node.outdated = true;
         }
     }
-    void update_sky(Node& node, LatticePoint at) {
+    void update_sky(std::uint32_t i, LatticePoint at) {
+        Node& node = tile_.nodes[i];
         const Rgb was = node.local;
-        node.local = node.parent == no_node ? sky_seen(now_, at) : sky_seen(now_, {tile_.nodes[node.parent].position, node.position});
-        if (node.local != was) touched_ = true;
+        const std::uint16_t was_clear = node.clear;
+        light_sky(now_, tile_, i, at);
+        if (node.local != was || node.clear != was_clear) touched_ = true;
     }
     void relight(Node& node) {
         node.shadowed = false;
@@ -246,7 +252,7 @@ private:
             tile_.untried = tile_.untried || is_new;
             if (share != Share::untried && (change == LightChange::way || (change == LightChange::reach && share == Share::behind))) {
                 change_share(static_cast<std::uint32_t>(i), l, Share::untried);
-            } else if (may_arrive(share)) {  // the strength of a light that does not arrive does not matter
+            } else if (may_arrive(share) || now_.lobes[node.material].catcher) {  // the strength of a light that does not arrive does not matter, but to what catches shadows
                 relight(node);
             }
         }
@@ -345,7 +351,7 @@ private:
     const bool watched_;
     std::vector<std::uint64_t> place_;  // by node: key of a root's point
     std::vector<std::uint8_t> lost_, spawn_again_, bends_;  // by node
-    bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false;
+    bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false, outdates_ = false;
 };
 
 // The tile without its trees; its picture stays until there is another.
@@ -372,7 +378,7 @@ void light_again(Tile& tile, const World& world) {
 void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched) {
     if (!change.touches_trees()) return;
     if (change.anew || tile.nodes.empty()) return begin_anew(tile);
-    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !(change.resamples && is_sampled(tile))) return;
+    if (change.lobes_only && !(change.lobes_bits & tile.materials) && !((change.resamples || change.outdates_samples) && is_sampled(tile))) return;
     Reviser(tile, before, now, change, watched).run();
 }
 
@@ -408,7 +414,7 @@ void settle(Tile& tile, const World& world, std::span<const scene::Level> level_
     const bool complete = tile.stage == static_cast<int>(level_of_stage.size()) && tile.quads_before.empty();
     if (std::exchange(tile.split_anew, false) || !complete) unsplit(tile, settings);
     tile.stage = std::min({tile.stage, stage, edges, first_round});
-    if (tile.stage == static_cast<int>(level_of_stage.size())) release(tile.pixels), tile.pixels_stage = -1;
+    if (tile.stage == static_cast<int>(level_of_stage.size())) forget_picture(tile);
     const bool watched = tile.previewed_until > 0;
     if (watched) tile.previewed_until = stage <= shadows ? shadows + 1 : stage == reflections ? edges : 0;
     // Stale light is better than none, and than very noisy light.

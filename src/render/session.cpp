@@ -66,8 +66,7 @@ Progress Session::advance(const Deadline& deadline) {
             if (!s.advance_tile(tile, work[i].until, deadline) || tile.stage < stages) return;
             tile.going_on = false;
             if (keep) {
-                release(tile.pixels);
-                tile.pixels_stage = -1;
+                forget_picture(tile);
                 return tile.trim();
             }
             s.drop_finished(tile);
@@ -92,7 +91,10 @@ Progress Session::advance(const Deadline& deadline) {
     const int corners = stages_to_all_roots(s.world->scene.settings);
     if (std::all_of(states.begin(), states.end(), [&](const TileState& state) { return state.shown_stage >= corners; })) release(s.seen);
     s.render_seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    return s.progress(states);
+    Progress progress = s.progress(states);
+    if (progress.done && !s.is_finished) s.finished = s.clock;
+    s.is_finished = progress.done;
+    return progress;
 }
 
 Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::string& file) {
@@ -108,9 +110,10 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
     auto undo = scene::apply(std::move(edits), s.world->scene, file);
     if (!undo) return tl::unexpected(undo.error());
 
+    s.is_finished = false;
     EditReport report{std::move(*undo)};
     World& before = *s.world;
-    auto now = world_without_accelerator(std::move(before.scene));
+    auto now = world_without_accelerator(std::move(before.scene), &before);
     Change change = change_between(before, settings, *now, reshaped);
     const accel::Accelerator* accelerator = before.accelerator.get();
     if (auto given = give_accelerator(*now, before, change.same_geometry && same_accelerator(settings, now->scene.settings), reshaped); !given) {
@@ -135,6 +138,10 @@ Expected<EditReport> Session::edit(std::vector<scene::Edit> edits, const std::st
         s.settled = false;
         old->moments.reset(), old->accelerator.reset();
         s.steps.push_back({std::move(old), std::move(change)});
+    }
+    if (settings.denoise != s.world->scene.settings.denoise) {
+        ++s.clock;
+        for (Tile& tile : s.tiles) tile.changed = s.clock;
     }
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     return report;
@@ -174,22 +181,6 @@ Expected<void> Session::restore(const std::filesystem::path& file) {
     return edit({scene::SetSettings{settings}}).map([](const EditReport&) {});
 }
 
-scene::Image Session::picture(bool all_layers) const {
-    State& s = *state_;
-    if (!all_layers) {
-        Frame frame;
-        refresh(frame);
-        return std::move(frame.image);
-    }
-    s.catch_up(Deadline::never());  // layers speak of the scene as it is
-    scene::Image image = blank_image(s.width(), s.height(), true);
-    s.pool.for_each(s.tiles.size(), [&](std::size_t i) {
-        const Tile& tile = s.tiles[i];
-        expose(tile.shows_pixels() ? s.regrown(tile) : tile, *s.world, s.level_of_stage, image);
-    });
-    return image;
-}
-
 Stats Session::stats() const {
     const State& s = *state_;
     Stats stats;
@@ -216,22 +207,6 @@ Stats Session::stats() const {
     stats.threads = s.pool.threads();
     stats.revised_tiles = s.revised;
     return stats;
-}
-
-std::vector<Area> Session::refresh(Frame& frame) const {
-    const State& s = *state_;
-    scene::Image& image = frame.image;
-    if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1) frame = {blank_image(s.width(), s.height(), false), 0};
-    std::vector<const Tile*> changed;
-    std::vector<Area> areas;
-    for (const Tile& tile : s.tiles) {
-        if (tile.changed <= frame.time) continue;
-        changed.push_back(&tile);
-        areas.push_back({tile.x0, tile.y0, tile.width, tile.height});
-    }
-    s.pool.for_each(changed.size(), [&](std::size_t i) { expose(*changed[i], *s.world, s.level_of_stage, image); });
-    frame.time = s.clock;
-    return areas;
 }
 
 void Session::look_at(const Area& area) {

@@ -103,7 +103,8 @@ public:
     // The picture so far, whole at any moment: layer "color" only, or with all layers (see scene/image.h).
     scene::Image picture(bool all_layers = false) const;
 
-    // Brings the frame's color to what the session shows now, and returns where it was written: the tiles that changed since it was taken. An empty frame,
+    // Brings the frame's color to what the session shows now, and returns where it was written: the tiles that changed since it was taken. What is filtered
+    // (settings.denoise) stays in it between an edit and the next advance(). An empty frame,
     // or one of another size, becomes the whole picture. A frame belongs to one session.
     std::vector<Area> refresh(Frame& frame) const;
 

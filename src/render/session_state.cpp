@@ -40,6 +40,7 @@ bool Session::State::revise(Tile& tile, bool watched) {
         render::revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change, watched);
     }
     if (tile.unsettled || tile.nodes.empty()) ++revised, tile.changed = clock;
+    if (!tile.samples.empty()) tile.changed = clock;  // it is filtered again, with its neighbours
     tile.revision = edits;
     return true;
 }
@@ -129,7 +130,7 @@ void Session::State::begin_anew(const Reprojected& picture) {
 bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadline) const {
     const bool unseen = until > tile.stage + 1 && level_of_stage[static_cast<std::size_t>(until - 1)] > scene::Level::visible;
     if (unseen && tile.stage > 0 && !tile.shows_pixels()) {
-        tile.pixels = develop(tile);
+        keep_picture(tile);
         tile.pixels_stage = tile.stage;
     }
     Growth growth(*world, tile, unseen);
@@ -137,7 +138,7 @@ bool Session::State::advance_tile(Tile& tile, int until, const Deadline& deadlin
         const Stage& stage = stages[static_cast<std::size_t>(tile.stage)];
         if (!kind_of(stage.level).advance(growth, stage, deadline)) return false;
         tile.cursor = 0;
-        if (++tile.stage == 1 && !tile.shows_pixels() && tile.previewed_until == 0) release(tile.pixels);  // of before an edit that left no tree
+        if (++tile.stage == 1 && !tile.shows_pixels() && tile.previewed_until == 0) release(tile.pixels), release(tile.clear_pixels);  // of before an edit that left no tree
         if (tile.stage < until && deadline.passed()) return false;
     }
     return true;

@@ -44,12 +44,15 @@ struct Session::State {
     bool settled = true;                         // no tile waits for revision or settling
     std::atomic<std::uint64_t> revised = 0;      // times that an edit touched a tile
     std::uint64_t clock = 0;                     // ticks when tiles may change
+    bool is_finished = false;                    // the picture, at the end of the last advance()
+    std::uint64_t finished = 0;                  // when it last became so
     std::vector<SeenPoint> seen;                 // by pixel, from the last camera whose picture had all its corners; until the present one's has
     Area attended;                               // where the user looks
     RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
     TestCounts past_tests;
 
     int tiles_across() const { return (width() + tile_size() - 1) / tile_size(); }
+    bool keeps_alpha() const { return world->environment.source().transparent; }
     int width() const { return world->scene.settings.width; }
     int height() const { return world->scene.settings.height; }
     int tile_size() const { return world->scene.settings.tile; }
@@ -66,6 +69,10 @@ struct Session::State {
     static std::vector<Node> drop(Tile& tile);  // gives the memory of its nodes
     void take_spare(Tile& tile);
     void drop_finished(Tile& tile);
+    void show(scene::Image& image, const std::vector<bool>& which, bool regrow) const;  // these tiles, as they are or, where they were dropped, grown anew
+    bool is_known(const Tile& tile) const { return tile.revision == edits && !tile.unsettled; }  // to the trees, what the scene is
+    bool denoises() const;                                                                // some tile may show what has too few samples
+    std::vector<bool> with_neighbours(const std::vector<bool>& which) const;              // those too by which the filter finds what these show
     std::vector<TileState> tile_states() const;
     Progress progress(const std::vector<TileState>& states) const;
 };

@@ -19,8 +19,7 @@ constexpr double last = std::tuple_size_v<SplitSums> - 1;
 // A facet's normal depends on two numbers in [0, 1] (Microfacets::sample_seen). The first is an angle: evenly spaced ones do well. Of the second, the steep facets at
 // its end weigh most in the error; the substitution 1 - u2 = (1 - t)^3 (1 + 3 t) crowds the points there.
 template <class What>
-SplitSums means_over_facets(double alpha, int angles, int tilts, const What& what) {
-    const Microfacets facets{alpha, alpha};
+SplitSums means_over_facets(const Microfacets& facets, int angles, int tilts, const What& what) {
     SplitSums sums;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double root = static_cast<double>(i) / last, cosine = std::max(1e-4, root * root);
@@ -42,6 +41,19 @@ SplitSums means_over_facets(double alpha, int angles, int tilts, const What& wha
     return sums;
 }
 
+SplitSums sums_of(const Microfacets& facets, int angles, int tilts) {
+    return means_over_facets(facets, angles, tilts, [](Vec3 v, Vec3 h, double v_h, const auto& passed) {
+        const Vec3 l = h * (2 * v_h) - v;
+        if (l.z <= 0) return std::pair{0.0, 0.0};
+        const double p = passed(l), fresnel = fifth_power(1 - v_h);
+        return std::pair{p * (1 - fresnel), p * fresnel};
+    });
+}
+
+void add_weighted(SplitSums& sum, const SplitSums& one, float weight) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i].scale += weight * one[i].scale, sum[i].bias += weight * one[i].bias;
+}
+
 double fourth_power(double x) { return x * x * x * x; }
 
 // Twice the integral over a cell of e, linear in s, times the cosine s^2: that of 4 s^3 (a + b s) over s.
@@ -52,13 +64,17 @@ double over_cell(std::size_t i, double e0, double e1) {
 
 }  // namespace
 
-SplitSums split_sums(double alpha) {
-    return means_over_facets(alpha, 8, 16, [](Vec3 v, Vec3 h, double v_h, const auto& passed) {
-        const Vec3 l = h * (2 * v_h) - v;
-        if (l.z <= 0) return std::pair{0.0, 0.0};
-        const double p = passed(l), fresnel = fifth_power(1 - v_h);
-        return std::pair{p * (1 - fresnel), p * fresnel};
-    });
+SplitSums split_sums(double alpha) { return sums_of(Microfacets{alpha, alpha}, 8, 16); }
+
+GrainSums grain_sums(double alpha_along, double alpha_across) {
+    // What is seen along x, and with the roughnesses exchanged what is seen along y.
+    const SplitSums along = sums_of(Microfacets{alpha_along, alpha_across}, 16, 24), across = sums_of(Microfacets{alpha_across, alpha_along}, 16, 24);
+    GrainSums sums;
+    for (std::size_t i = 0; i < along.size(); ++i) {
+        sums.mean[i] = {0.5f * (along[i].scale + across[i].scale), 0.5f * (along[i].bias + across[i].bias)};
+        sums.lean[i] = {0.5f * (along[i].scale - across[i].scale), 0.5f * (along[i].bias - across[i].bias)};
+    }
+    return sums;
 }
 
 SplitSums smooth_split_sums() {
@@ -71,7 +87,7 @@ SplitSums smooth_split_sums() {
 }
 
 SplitSums glass_sums(double alpha, double eta) {
-    return means_over_facets(alpha, 12, 32, [eta](Vec3 v, Vec3 h, double v_h, const auto& passed) {
+    return means_over_facets(Microfacets{alpha, alpha}, 12, 32, [eta](Vec3 v, Vec3 h, double v_h, const auto& passed) {
         const double fresnel = fresnel_dielectric(v_h, eta), sin2 = (1 - v_h * v_h) / (eta * eta);
         const Vec3 l = h * (2 * v_h) - v;
         std::pair<double, double> shares{l.z > 0 ? fresnel * passed(l) : 0, 0};
@@ -128,6 +144,34 @@ SplitSums tabled_split_sums(double alpha) {
     for (std::size_t k = 0; k < sums.size(); ++k) {
         const SplitSum &a = table[i][k], &b = table[i + 1][k];
         sums[k] = {a.scale + (b.scale - a.scale) * t, a.bias + (b.bias - a.bias) * t};
+    }
+    return sums;
+}
+
+GrainSums tabled_grain_sums(double alpha_along, double alpha_across) {
+    constexpr std::size_t roughnesses = 16, stretches = 8;
+    static const std::vector<GrainSums> table = [] {
+        std::vector<GrainSums> rows;
+        for (std::size_t i = 0; i <= roughnesses; ++i) {
+            const double roughness = static_cast<double>(i) / roughnesses, across = std::max(1e-3, roughness * roughness);
+            for (std::size_t k = 0; k <= stretches; ++k) {
+                const double stretch = static_cast<double>(k) / stretches;
+                rows.push_back(grain_sums(across + (1 - across) * stretch * stretch, across));
+            }
+        }
+        return rows;
+    }();
+    const double stretch2 = alpha_across < 1 ? (alpha_along - alpha_across) / (1 - alpha_across) : 0;
+    const double x = std::sqrt(std::clamp(alpha_across, 0.0, 1.0)) * roughnesses, y = std::sqrt(std::clamp(stretch2, 0.0, 1.0)) * stretches;
+    const auto i = std::min(static_cast<std::size_t>(x), roughnesses - 1), k = std::min(static_cast<std::size_t>(y), stretches - 1);
+    const auto s = static_cast<float>(x - static_cast<double>(i)), t = static_cast<float>(y - static_cast<double>(k));
+    GrainSums sums{};
+    for (std::size_t a = 0; a < 2; ++a) {
+        for (std::size_t b = 0; b < 2; ++b) {
+            const GrainSums& one = table[(i + a) * (stretches + 1) + k + b];
+            const float weight = (a ? s : 1 - s) * (b ? t : 1 - t);
+            add_weighted(sums.mean, one.mean, weight), add_weighted(sums.lean, one.lean, weight);
+        }
     }
     return sums;
 }

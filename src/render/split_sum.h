@@ -25,6 +25,14 @@ SplitSums split_sums(double alpha);
 // The same from a table over perceptual roughness (the root of alpha), interpolated: within 0.002, and a thousand times as fast; for surfaces that are of another roughness everywhere.
 SplitSums tabled_split_sums(double alpha);
 
+// Of a surface that is rougher along one of its directions than across, where they depend on the azimuth too: mean + lean * cos(2 azimuth), which is exact along and across, and
+// between them within 0.02.
+struct GrainSums {
+    SplitSums mean, lean;
+};
+GrainSums grain_sums(double alpha_along, double alpha_across);
+GrainSums tabled_grain_sums(double alpha_along, double alpha_across);  // as tabled_split_sums
+
 // Those of a mirror: nothing is missing.
 SplitSums smooth_split_sums();
 

@@ -19,6 +19,12 @@ inline const Lobes& lobes_at(const World& world, std::uint32_t material, const T
 // Of a node that did not leave the scene. Derived from the tile's nodes alone: from where it is and the path that leads there.
 const Lobes& lobes_of(const World& world, const Tile& tile, std::uint32_t node, Lobes& scratch);
 
+// Whether the coat of a material may have another normal than what is below.
+inline bool has_own_coat(const World& world, std::uint32_t material) {
+    const TexturedMaterial* textured = world.textured_material(material);
+    return textured && textured->has_own_coat();
+}
+
 // The node as its textures see it.
 TexturePoint texture_point(const World& world, const Tile& tile, std::uint32_t node);
 

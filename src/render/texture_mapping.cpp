@@ -245,6 +245,16 @@ TexturePlaces places_of(const Texture& texture, const TexturePoint& point) {
     return places;
 }
 
+Vec3 shading_normal(const TexturePoint& point) {
+    const Instance& instance = *point.instance;
+    const Vec3 own = geometry::surface(*instance.shape, point.primitive, instance.to_local.point(point.position)).shading_normal;
+    const Vec3 outward = normalize(instance.to_local.transposed(own));
+    const Vec3 normal = dot(outward, point.geometric) * (point.inside ? -1 : 1) < 0 ? -outward : outward;
+    const Vec3 towards = point.inside ? -normal : normal;
+    const double facing = dot(towards, point.to_viewer);
+    return facing < 1e-4 ? normalize(towards + point.to_viewer * (1e-4 - facing)) : towards;
+}
+
 bool same_places(const Texture& a, const Texture& b) {
     return a.projection == b.projection && a.set == b.set && a.size == b.size && a.axis == b.axis && a.blend == b.blend && a.offset_u == b.offset_u &&
            a.offset_v == b.offset_v && a.rotation == b.rotation && a.scale_u == b.scale_u && a.scale_v == b.scale_v;

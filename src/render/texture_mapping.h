@@ -48,6 +48,9 @@ struct TexturePlaces {
 
 TexturePlaces places_of(const scene::Texture& texture, const TexturePoint& point);
 
+// The normal for light where nothing bends it, of unit length, on the viewer's side and such that he can see it.
+Vec3 shading_normal(const TexturePoint& point);
+
 // Whether both are looked up in the same places of every surface.
 bool same_places(const scene::Texture& a, const scene::Texture& b);
 

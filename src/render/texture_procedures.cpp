@@ -15,6 +15,7 @@ using scene::TextureProjection;
 
 // How far the footprint reaches along a way of the texture's space.
 double reach(const TexturePlace& place, Vec3 way) { return std::hypot(dot(place.axes[0], way), dot(place.axes[1], way)); }
+double whole_reach(const TexturePlace& place) { return std::max({reach(place, {1, 0, 0}), reach(place, {0, 1, 0}), reach(place, {0, 0, 1})}); }
 
 // The mean over [x - w/2, x + w/2] of the wave that is 1 in even cells and -1 in odd ones.
 double square_wave(double x, double w) {
@@ -113,17 +114,79 @@ double wood(const Texture& texture, const TexturePlace& place) {
     return std::clamp(1 - (mean + kept * (ring - mean)) * 0.85 + 0.25 * pores, 0.0, 1.0);
 }
 
+// The nearest of points that lie one in each cell, and how far the nearest and the second are.
+struct Nearest {
+    Vec3 cell;
+    double first = 1e9, second = 1e9;
+};
+Nearest nearest_points(Vec3 p) {
+    const Vec3 at{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+    Nearest nearest;
+    for (int i = 0; i < 27; ++i) {
+        const Vec3 cell = at + Vec3{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
+        const Vec3 jitter{lattice_value(cell.x, cell.y, cell.z), lattice_value(cell.y + 0.5, cell.z, cell.x), lattice_value(cell.z + 0.25, cell.x, cell.y)};
+        const double distance = length(cell + jitter - p);
+        if (distance < nearest.first) nearest.second = nearest.first, nearest.first = distance, nearest.cell = cell;
+        else nearest.second = std::min(nearest.second, distance);
+    }
+    return nearest;
+}
+
+// Grains: domes between creases, of uneven outline, with pores.
+double leather(const TexturePlace& place) {
+    const double width = whole_reach(place), kept = std::clamp(2 - 2 * width, 0.0, 1.0);
+    constexpr double mean = 0.62;
+    if (kept == 0) return mean;
+    const Vec3 bend{lattice_noise(place.at * 1.7), lattice_noise(place.at * 1.7 + Vec3{41.3, 0, 7.7}), lattice_noise(place.at * 1.7 + Vec3{5.9, 83.1, 0})};
+    const Nearest n = nearest_points(place.at + bend * 0.8);
+    const double crease = std::clamp((n.second - n.first) / 0.28, 0.0, 1.0), dome = 1 - (1 - crease) * (1 - crease) * (1 - crease);
+    const double fine = std::clamp(2 - 2 * width * 6, 0.0, 1.0) * (lattice_noise(place.at * 6.0) - 0.5);
+    return std::clamp(mean + kept * (dome - 0.12 * n.first - mean) + 0.12 * fine, 0.0, 1.0);
+}
+
+// What is left of single flakes.
+double flakes_seen(const TexturePlace& place) { return std::clamp(2 - 2 * whole_reach(place), 0.0, 1.0); }
+
+bool is_near(Vec3 v) {
+    constexpr double farthest = 1e9;  // beyond, numbers have no fractions to speak of
+    return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest;
+}
+bool is_near(const TexturePlace& place) { return is_near(place.at) && is_near(place.axes[0]) && is_near(place.axes[1]); }
+
 }  // namespace
 
+Vec3 flake_slope(const Texture& texture, const TexturePlace& place) {
+    if (!is_near(place)) return {};
+    const double seen = flakes_seen(place);
+    if (seen == 0) return {};
+    const Vec3 cell = nearest_points(place.at).cell;
+    // Two numbers make two of a normal distribution (Box and Muller 1958), held to three deviations.
+    const auto normal_pair = [&](double offset) {
+        const double u = lattice_value(cell.x + offset, cell.y, cell.z), v = lattice_value(cell.x, cell.y + offset, cell.z);
+        const double radius = std::min(3.0, std::sqrt(-2 * std::log(1 - u)));
+        return std::pair{radius * std::cos(2 * pi * v), radius * std::sin(2 * pi * v)};
+    };
+    const auto [x, y] = normal_pair(0.125);
+    return Vec3{x, y, normal_pair(0.375).first} * (texture.strength * seen);
+}
+
+double hidden_slopes(const Texture& texture, const TexturePlace& place) {
+    const double seen = is_near(place) ? flakes_seen(place) : 0;
+    return 2 * texture.strength * texture.strength * (1 - seen * seen);
+}
+
 double procedure_value(const Texture& texture, const TexturePlace& place) {
-    constexpr double farthest = 1e9;  // beyond, numbers have no fractions to speak of
-    const auto is_near = [](Vec3 v) { return std::abs(v.x) < farthest && std::abs(v.y) < farthest && std::abs(v.z) < farthest; };
-    if (!is_near(place.at) || !is_near(place.axes[0]) || !is_near(place.axes[1])) return 0.5;
+    if (!is_near(place)) return 0.5;
     switch (texture.kind) {
         case TextureKind::checker: return checker(texture, place);
-        case TextureKind::noise: return octaves(place.at, std::max({reach(place, {1, 0, 0}), reach(place, {0, 1, 0}), reach(place, {0, 0, 1})}), 6);
+        case TextureKind::noise: return octaves(place.at, whole_reach(place), 6);
         case TextureKind::brushed: return brushed(texture, place);
         case TextureKind::wood: return wood(texture, place);
+        case TextureKind::leather: return leather(place);
+        case TextureKind::flakes: {  // of as many brightnesses
+            const Vec3 cell = nearest_points(place.at).cell;
+            return 0.5 + flakes_seen(place) * (lattice_value(cell.x, cell.y + 0.625, cell.z) - 0.5);
+        }
         case TextureKind::image:
         case TextureKind::vertex_color: break;
     }

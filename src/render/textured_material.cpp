@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/grain.h"
 #include "render/texture_image_filter.h"
 #include "render/texture_procedures.h"
 
@@ -120,9 +121,11 @@ TexturedMaterial::TexturedMaterial(const scene::Material& material) : material_(
             return static_cast<std::size_t>(std::find_if(table.begin(), table.end(), [&](const auto& f) { return f.info.name == target; }) - table.begin());
         }, material_.model);
     };
+    if (const auto* m = std::get_if<scene::PhysicalMaterial>(&material_.model)) has_coat_ = m->clearcoat > 0;
     for (const scene::TextureBinding& binding : material_.textures) {
-        if (binding.target == "normal" || binding.target == "bump") {
-            relief_.push_back(binding);
+        std::vector<scene::TextureBinding>* list = binding.target == "normal" || binding.target == "bump" ? &relief_ : binding.target == "clearcoat_normal" ? &coat_relief_ : binding.target == "grain" ? &grain_ : nullptr;
+        if (list) {
+            list->push_back(binding);
             continue;
         }
         const Texture* before = acts_.empty() ? nullptr : acts_.back().texture;
@@ -159,21 +162,47 @@ Lobes TexturedMaterial::lobes_of(Model model, const TexturePoint& point) const {
             field.set(model, number);
         }
     }
+    if constexpr (std::same_as<Model, scene::PhysicalMaterial>) {
+        // What flakes too small to be seen one by one have of slopes makes the surface rougher (Toksvig 2005, "Mipmapping Normal Maps"; Olano and Baker 2010, "LEAN Mapping").
+        double slopes = 0;  // variance, of both directions together
+        for (const scene::TextureBinding& binding : relief_) {
+            if (binding.texture.kind == TextureKind::flakes) slopes += hidden_slopes(binding.texture, places_of(binding.texture, point).place[0]);
+        }
+        if (slopes > 0) model.roughness = std::min(1.0, std::sqrt(std::sqrt(std::pow(model.roughness, 4) + slopes)));
+        else if (acts_.empty()) return whole_;
+    } else if (acts_.empty()) {
+        return whole_;
+    }
     Lobes lobes = compile(scene::Material{"", model, {}}, whole_);
     lobes.ambient_diffuse *= gray(occlusion);
     lobes.ambient_specular *= gray(occlusion);
     return lobes;
 }
 
-Lobes TexturedMaterial::lobes_at(const TexturePoint& point) const {
-    return std::visit([&](const auto& model) { return lobes_of(model, point); }, material_.model);
+bool TexturedMaterial::varies(const scene::Material& material) {
+    const auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
+    return !material.textures.empty() || (m && m->anisotropy > 0);
 }
 
-Vec3 TexturedMaterial::normal_at(const TexturePoint& point, Vec3 shading) const {
+Lobes TexturedMaterial::lobes_at(const TexturePoint& point) const {
+    Lobes lobes = std::visit([&](const auto& model) { return lobes_of(model, point); }, material_.model);
+    if (lobes.grained()) lobes.tangent = grain_direction(std::get<scene::PhysicalMaterial>(material_.model), grain_, point);
+    if (lobes.coat > 0 && has_own_coat()) lobes.coat_normal = bent(coat_relief_, point, shading_normal(point));
+    return lobes;
+}
+
+Vec3 TexturedMaterial::normal_at(const TexturePoint& point, Vec3 shading) const { return bent(relief_, point, shading); }
+
+Vec3 TexturedMaterial::bent(const std::vector<scene::TextureBinding>& relief, const TexturePoint& point, Vec3 shading) {
     Vec3 outward = point.inside ? -shading : shading;
-    for (const scene::TextureBinding& binding : relief_) {
+    for (const scene::TextureBinding& binding : relief) {
         const TexturePlaces places = places_of(binding.texture, point);
-        if (binding.target == "normal") {
+        if (binding.texture.kind == TextureKind::flakes) {
+            const Vec3 tilt = flake_slope(binding.texture, places.place[0]);
+            outward = normalize(outward + tilt - outward * dot(tilt, outward));
+            continue;
+        }
+        if (binding.target != "bump") {
             outward = mapped(binding.texture, places, outward);
             continue;
         }

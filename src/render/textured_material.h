@@ -1,4 +1,4 @@
-// Materials with textures: their lobes and normals at a place of a surface.
+// Materials that are not the same all over: their lobes and normals at a place of a surface, by their textures and by where their grain runs.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,16 @@
 
 namespace crescente::render {
 
-// A material made ready for its textures to be asked. Materials without any have none.
+// A material made ready to be asked. Materials that are the same all over have none.
 class TexturedMaterial {
 public:
     explicit TexturedMaterial(const scene::Material& material);  // of which all pictures are decoded and all targets known
     TexturedMaterial(const TexturedMaterial&) = delete;
     TexturedMaterial& operator=(const TexturedMaterial&) = delete;
 
-    // What the material is made of at a place.
+    static bool varies(const scene::Material& material);  // with textures or a grain
+
+    // What the material is made of at a place, and which way its grain runs and its coat faces there.
     Lobes lobes_at(const TexturePoint& point) const;
 
     // The normal that its relief gives the surface there, for light. `shading` is that of the surface without it, of unit length, on the viewer's side; so is the result,
@@ -25,7 +27,12 @@ public:
     bool has_relief() const { return !relief_.empty(); }
     // Whether light may pass at some places even if it does not without the textures.
     bool may_open() const { return may_open_; }
-    bool same_relief(const TexturedMaterial& other) const { return relief_ == other.relief_; }
+    // Whether its clear coat, if any, does not follow its relief.
+    bool has_own_coat() const { return has_coat_ && (has_relief() || !coat_relief_.empty()); }
+    // Whether normals, and those of coats, are where they were.
+    bool same_relief(const TexturedMaterial& other) const {
+        return relief_ == other.relief_ && has_own_coat() == other.has_own_coat() && (!has_own_coat() || coat_relief_ == other.coat_relief_);
+    }
     bool operator==(const TexturedMaterial& other) const { return material_.model == other.material_.model && material_.textures == other.material_.textures; }
 
 private:
@@ -34,14 +41,15 @@ private:
         std::size_t field;              // index in the model's table; beyond it: occlusion
         bool same_places, same_values;  // as of the act before
     };
+    static Vec3 bent(const std::vector<scene::TextureBinding>& relief, const TexturePoint& point, Vec3 shading);
     template <class Model>
     Lobes lobes_of(Model model, const TexturePoint& point) const;
 
     scene::Material material_;
     Lobes whole_;            // without textures
     std::vector<Act> acts_;  // their textures are material_'s
-    std::vector<scene::TextureBinding> relief_;
-    bool may_open_ = false;
+    std::vector<scene::TextureBinding> relief_, coat_relief_, grain_;
+    bool may_open_ = false, has_coat_ = false;
 };
 
 // The value of a texture at its places: colour and alpha, before channel and strength.

@@ -21,22 +21,22 @@ struct NodeRecord {
     std::uint32_t instance, primitive, material, parent, reflected, refracted;
     Rgb weight, local;
     std::uint8_t depth, flags;
-    std::uint16_t zero;
+    std::uint16_t clear;  // and the bit for outdated
 };
 static_assert(sizeof(NodeRecord) == 96);
 
 NodeRecord record_of(const Node& n) {
     const int flags = n.inside | n.crossed << 1 | n.shadowed << 2 | n.spawned << 3 | n.hidden << 4 | n.sampled << 5 | n.samples_reflection << 6 | n.samples_refraction << 7;
     return {n.position, n.normal, n.geometric_normal, n.offset, n.instance, n.primitive, n.material, n.parent, n.reflected, n.refracted, n.weight, n.local,
-            n.depth, static_cast<std::uint8_t>(flags), 0};
+            n.depth, static_cast<std::uint8_t>(flags), static_cast<std::uint16_t>(n.clear | n.outdated << 15)};
 }
 Node node_of(const NodeRecord& r) {
     Node n;
     n.position = r.position, n.normal = r.normal, n.geometric_normal = r.geometric_normal, n.offset = r.offset;
     n.instance = r.instance, n.primitive = r.primitive, n.material = r.material;
-    n.parent = r.parent, n.reflected = r.reflected, n.refracted = r.refracted, n.weight = r.weight, n.local = r.local, n.depth = r.depth;
+    n.parent = r.parent, n.reflected = r.reflected, n.refracted = r.refracted, n.weight = r.weight, n.local = r.local, n.depth = r.depth, n.clear = r.clear & all_clear;
     n.inside = r.flags & 1, n.crossed = r.flags >> 1 & 1, n.shadowed = r.flags >> 2 & 1, n.spawned = r.flags >> 3 & 1, n.hidden = r.flags >> 4 & 1;
-    n.sampled = r.flags >> 5 & 1, n.samples_reflection = r.flags >> 6 & 1, n.samples_refraction = r.flags >> 7 & 1;
+    n.sampled = r.flags >> 5 & 1, n.samples_reflection = r.flags >> 6 & 1, n.samples_refraction = r.flags >> 7 & 1, n.outdated = r.clear >> 15;
     return n;
 }
 
@@ -52,7 +52,6 @@ void nodes(Archive& a, std::vector<Node>& v) {
     list(a, v, sizeof(NodeRecord), [&](Node& node) {
         NodeRecord record = record_of(node);
         value(a, record);
-        if (record.zero != 0) a.fail();
         node = node_of(record);
     });
 }
@@ -92,7 +91,7 @@ void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
     [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, lens_samples, lens_estimates, lens_pixels, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
-                            cursor, todo, pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
+                            cursor, todo, pixels, clear_pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, materials, revision, changed,
                             unsettled, untried, lens_piloted, forgotten, resamples, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
     array(a, shares);
@@ -106,7 +105,7 @@ void columns(Archive& a, Tile& tile) {
     map(a, subpixel_roots, [&](std::uint64_t key) { return is_within(point_of(key), tile); });
     value(a, stage), value(a, cursor);
     array(a, todo);
-    array(a, pixels);
+    array(a, pixels), array(a, clear_pixels);
     value(a, pixels_stage);
     value(a, going_on), value(a, lit), value(a, untried), value(a, resamples), value(a, split_anew), value(a, lens_piloted);
     value(a, forgotten);

@@ -61,6 +61,7 @@ private:
         const int all = static_cast<int>(stages_.size());
         if (tile_.stage < 0 || tile_.stage > all || tile_.pixels_stage < -1 || tile_.pixels_stage > all) return false;
         if (!tile_.pixels.empty() && tile_.pixels.size() != pixel_count()) return false;
+        if (!tile_.clear_pixels.empty() && tile_.clear_pixels.size() != tile_.pixels.size()) return false;
         // What waits for its light gets it from the stage of shadows.
         const int visible = first_stage_after(scene::Level::visible);
         if (!tile_.lit && (visible == all || tile_.stage > visible)) return false;
@@ -140,7 +141,7 @@ private:
         if (tile_.samples.size() > tile_.nodes.size() || (world_.lens && !tile_.samples.empty()) || tile_.estimates.size() != tile_.samples.size() * estimate_groups(world_)) return false;
         if (!std::all_of(tile_.estimates.begin(), tile_.estimates.end(), sums_hold)) return false;
         for (std::size_t i = 0; i < tile_.nodes.size(); ++i) {
-            if (tile_.nodes[i].sampled && (i >= tile_.samples.size() || tile_.samples[i] == 0)) return false;
+            if ((tile_.nodes[i].sampled || tile_.nodes[i].outdated) && (i >= tile_.samples.size() || tile_.samples[i] == 0)) return false;
         }
         return true;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/scene_lights.h"
 #include "scene/hierarchy.h"
 
 namespace crescente::render {
@@ -25,8 +26,8 @@ scene::Material as_a_whole(scene::Material material) {
     return material;
 }
 
-// All but the accelerator.
-void derive(World& world) {
+// All but the accelerator. `before`: of a scene that is much the same, or null.
+void derive(World& world, const World* before) {
     const scene::Scene& s = world.scene;
     std::vector<scene::Material> whole;
     for (const scene::Material& material : s.materials) whole.push_back(as_a_whole(material));
@@ -34,7 +35,7 @@ void derive(World& world) {
     world.lobes.push_back(compile(scene::Material{}));
     const auto default_material = static_cast<std::uint32_t>(world.lobes.size() - 1);
     for (std::size_t i = 0; i < s.materials.size(); ++i) {
-        if (s.materials[i].textures.empty()) continue;
+        if (!TexturedMaterial::varies(s.materials[i])) continue;
         world.textured.resize(world.lobes.size());
         world.textured[i] = std::make_shared<const TexturedMaterial>(s.materials[i]);
         world.bends_normals = world.bends_normals || world.textured[i]->has_relief();
@@ -66,8 +67,8 @@ void derive(World& world) {
         const std::span sides(world.one_sided.data() + world.first_slot[i], world.slots_of(i).size());
         if (std::any_of(sides.begin(), sides.end(), [](std::uint8_t one) { return one != 0; })) world.instances[i].one_sided = sides;
     }
-    for (const scene::Light& light : s.lights) world.lights.emplace_back(light);
     if (s.environment) world.environment = Environment(*s.environment);
+    make_lights(world);
     world.lens = lens_of(world, motion);
     if (world.lens && world.lens->objects != 0) world.moments = std::make_unique<Moments>(world);
     world.camera_media = media_around_camera(world);
@@ -80,7 +81,7 @@ void derive(World& world) {
             if (world.textured_material(static_cast<std::uint32_t>(i))) world.blurred_textured[i] = std::make_shared<const TexturedMaterial>(soft);
         }
     }
-    if (s.settings.level > scene::Level::edges) world.emitters = Emitters(world);
+    if (s.settings.level > scene::Level::edges) world.emitters = Emitters(world, before ? &before->emitters : nullptr);
 }
 
 }  // namespace
@@ -95,10 +96,10 @@ Expected<std::unique_ptr<World>> world_of(scene::Scene scene) {
     return world;
 }
 
-std::unique_ptr<World> world_without_accelerator(scene::Scene scene) {
+std::unique_ptr<World> world_without_accelerator(scene::Scene scene, const World* before) {
     const CameraRays camera(scene::camera_at(*scene.camera, scene.camera->shutter_open), scene.settings.width, scene.settings.height);
     auto world = std::make_unique<World>(std::move(scene), camera);
-    derive(*world);
+    derive(*world, before);
     return world;
 }
 

@@ -34,7 +34,8 @@ struct World {
     std::vector<std::uint8_t> one_sided;          // beside slots: what the instances point into
     std::vector<Lobes> lobes;                     // one for each material of the scene, without its textures (surface_lobes.h), and a default one at the end
     std::vector<Lobes> blurred_lobes;             // the same for light that diffuse surfaces scattered before; empty: no other
-    std::vector<Light> lights;
+    std::vector<Light> lights;                    // as points and directions; those of levels that do not sample stand in for what is sampled
+    std::vector<Light> luminous;                  // those with extent, as they are
     Environment environment;
     CameraRays camera;                            // a pinhole, when the shutter opens: then all else is where it is said to be, too
     std::optional<Lens> lens;                     // through which the levels that sample look; none: they look through the pinhole, too
@@ -66,7 +67,8 @@ struct World {
 Expected<std::unique_ptr<World>> world_of(scene::Scene scene);
 
 // The same for a scene whose shapes are prepared, without the accelerator.
-std::unique_ptr<World> world_without_accelerator(scene::Scene scene);
+// `before`: of a scene that is much the same; what is costly to derive is taken over from there.
+std::unique_ptr<World> world_without_accelerator(scene::Scene scene, const World* before = nullptr);
 
 // An accelerator of the kind that the settings ask for. It may take over what one before knew of shapes, but those that were `reshaped` since. Error: it
 // cannot be built.

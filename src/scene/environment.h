@@ -21,10 +21,13 @@ struct Environment {
     bool backdrop = false;
     math::Rgb backdrop_bottom{0, 0, 0};
     math::Rgb backdrop_top{0, 0, 0};
-    double strength = 0;  // how much the gradient lights surfaces (ambient light without shadows), 1: as radiometry says
-    // In place of the gradient. The picture is read with the scene and shared by its copies: values of an environment are many, its picture is large.
+    bool transparent = false;  // the camera sees nothing behind the scene: the picture keeps an alpha channel
+    double strength = 0;  // how much the gradient lights surfaces, 1: as radiometry says
+    int directions = 0;   // levels that do not sample take most of its light from so many directions of the upper half, with shadows; 0: none, all evenly
+    // In place of the gradient: a clear sky with its sun (scene/sky.h, daylight_of), or a picture. The picture is read with the scene and shared by its copies: values of an environment are many, its picture is large.
+    std::string sky;                            // where the sun stands; empty: none
     std::string image;                          // path; empty: none
-    std::shared_ptr<const Panorama> panorama;   // what was read from there
+    std::shared_ptr<const Panorama> panorama;   // what was read from there, or made of the sky
     double rotation = 0;                        // about +y, radians; counter-clockwise seen from above
     double intensity = 1;                       // factor of the picture's radiance, seen and as light
 

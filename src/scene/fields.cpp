@@ -30,13 +30,28 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
         field(&M::emissive, {"emissive", FieldType::color, "", 0, unbounded, "Radiance of its own"}),
         field(&M::ior, {"ior", FieldType::number, "", 1, 10, "Index of refraction"}),
         field(&M::transmission, {"transmission", FieldType::number, "", 0, 1, "Share of light that enters and is refracted"}),
+        field(&M::dispersion, {"dispersion", FieldType::number, "", 0, 10, "How much the index differs between blue and red: 20 over the Abbe number; levels that sample show it"}),
         field(&M::attenuation, {"attenuation", FieldType::color, "1/m", 0, unbounded, "Absorption inside the material"}),
+        field(&M::specular, {"specular", FieldType::number, "", 0, 1, "Of a dielectric: share of the reflection that its index makes"}),
+        field(&M::specular_color, {"specular_color", FieldType::color, "", 0, unbounded, "Of a dielectric: tint of its reflection seen straight on; what comes to more than all light is all"}),
         field(&M::eta, {"eta", FieldType::color, "", 0, 100, "Index of refraction of a metal at the wavelengths of red, green and blue; used with `k`, instead of `base_color`"}),
         field(&M::k, {"k", FieldType::color, "", 0, 100, "Extinction coefficient of a metal at the same; black: the metal is given by `base_color`"}),
         field(&M::clearcoat, {"clearcoat", FieldType::number, "", 0, 1, "Share of the surface under a clear coat of index 1.5"}),
         field(&M::clearcoat_roughness, {"clearcoat_roughness", FieldType::number, "", 0, 1, "0: a glossy coat, 1: a matt one"}),
+        field(&M::sheen_color, {"sheen_color", FieldType::color, "", 0, 1, "Light that fibres standing up from cloth send back, most at grazing angles; black: none"}),
+        field(&M::sheen_roughness, {"sheen_roughness", FieldType::number, "", 0, 1, "0: upright fibres, a thin rim of light; 1: in all directions"}),
+        field(&M::anisotropy, {"anisotropy", FieldType::number, "", 0, 1, "How much rougher the surface is along its grain than across; 0: alike"}),
+        field(&M::anisotropy_rotation, {"anisotropy_rotation", FieldType::angle, "deg", -1e6, 1e6, "Turns the grain, counter-clockwise"}),
+        field(&M::grain, {"grain", FieldType::choice, "", 0, 3,
+              "Where the grain runs. surface: where its coordinate u grows; along: as the axis; around: about the axis, as turned on a lathe; automatic: surface for meshes with texture coordinates, else along",
+              {"automatic", "surface", "along", "around"}}),
+        field(&M::grain_axis, {"grain_axis", FieldType::vector, "", -unbounded, unbounded, "Of the grain, in the shape's space"}),
+        field(&M::iridescence, {"iridescence", FieldType::number, "", 0, 1, "Share of the surface under a thin film, whose colours change with the angle"}),
+        field(&M::iridescence_ior, {"iridescence_ior", FieldType::number, "", 1, 5, "Index of refraction of the film"}),
+        field(&M::iridescence_thickness, {"iridescence_thickness", FieldType::number, "nm", 0, 100000, "Of the film"}),
         field(&M::opacity, {"opacity", FieldType::number, "", 0, 1, "Coverage; the rest passes straight on"}),
         field(&M::double_sided, {"double_sided", FieldType::boolean, "", 0, 1, "Both sides are met; false: the back is not there, for eye and light (what transmits has both sides always)"}),
+        field(&M::catcher, {"catcher", FieldType::boolean, "", 0, 1, "The camera sees only the shadows and reflections that it catches, over what is behind the scene"}),
     };
     return table;
 }
@@ -66,7 +81,10 @@ const FieldTable<Light>& Light::fields() {
         field(&Light::radius, {"radius", FieldType::number, "m", 0, unbounded, "Radius of a disk or sphere"}),
         field(&Light::two_sided, {"two_sided", FieldType::boolean, "", 0, 1, "A rectangle or disk shines to both sides"}),
         field(&Light::visible, {"visible", FieldType::boolean, "", 0, 1, "The camera sees the rectangle, disk or sphere itself; mirrors always do"}),
+        field(&Light::points, {"points", FieldType::integer, "", 1, 256, "Levels below soft see so many points of a light with extent: the more, the softer its shadows"}),
         field(&Light::group, {"group", FieldType::text, "", 0, 0, "Lights with extent of one group are sampled together; empty: each by itself"}),
+        field(&Light::only, {"only", FieldType::names, "", 0, 0, "Lights these objects alone, by name, with all below them; empty: everything"}),
+        field(&Light::except, {"except", FieldType::names, "", 0, 0, "Does not light these objects, nor what is below them; they still throw shadows"}),
     };
     return table;
 }
@@ -103,10 +121,14 @@ const FieldTable<Environment>& Environment::fields() {
         field(&E::backdrop, {"backdrop", FieldType::boolean, "", 0, 1, "The camera sees the backdrop colours instead"}),
         field(&E::backdrop_bottom, {"backdrop_bottom", FieldType::color, "", 0, unbounded, "At the bottom of the picture"}),
         field(&E::backdrop_top, {"backdrop_top", FieldType::color, "", 0, unbounded, "At the top of the picture"}),
+        field(&E::transparent, {"transparent", FieldType::boolean, "", 0, 1, "The camera sees nothing behind the scene: the picture keeps an alpha channel"}),
         field(&E::strength, {"strength", FieldType::number, "", 0, unbounded, "How much the gradient lights surfaces"}),
+        field(&E::directions, {"directions", FieldType::integer, "", 0, 256,
+              "Levels below soft take most of its light from so many directions, with shadows; 0: evenly, without shadows"}),
+        field(&E::sky, {"sky", FieldType::text, "", 0, 0, "Clear sky and sun in place of the gradient: azimuth,elevation or 2024-06-21T14:30,latitude,longitude (universal time), and ,turbidity"}),
         field(&E::image, {"image", FieldType::text, "", 0, 0, "Equirectangular picture in place of the gradient: path of a .hdr, .exr or other file; its middle is at +x"}),
-        field(&E::rotation, {"rotation", FieldType::angle, "deg", -unbounded, unbounded, "Turns the picture about +y, counter-clockwise seen from above"}),
-        field(&E::intensity, {"intensity", FieldType::number, "", 0, unbounded, "Factor of the picture's radiance, seen and as light"}),
+        field(&E::rotation, {"rotation", FieldType::angle, "deg", -unbounded, unbounded, "Turns picture or sky about +y, counter-clockwise seen from above"}),
+        field(&E::intensity, {"intensity", FieldType::number, "", 0, unbounded, "Factor of the radiance of picture or sky, seen and as light"}),
     };
     return table;
 }
@@ -124,8 +146,10 @@ const FieldTable<Settings>& Settings::fields() {
         field(&S::noise, {"noise", FieldType::number, "", 0.0001, 1, "Error, relative to a pixel's brightness, down to which light is sampled"}),
         field(&S::samples, {"samples", FieldType::integer, "", 1, 32768, "Most samples of a point"}),
         field(&S::caustics, {"caustics", FieldType::boolean, "", 0, 1, "Mirrors and glass throw light; false: glass lets it through straight"}),
+        field(&S::denoise, {"denoise", FieldType::choice, "", 0, 1, "What is shown of light with fewer samples than it wants: its mean with like neighbours, or the noise", {"off", "filter"}}),
         field(&S::tonemap, {"tonemap", FieldType::choice, "", 0, 2, "How radiance becomes display colour", {"automatic", "srgb", "neutral"}}),
         field(&S::exposure, {"exposure", FieldType::number, "stops", -32, 32, "Brightness of the picture"}),
+        field(&S::auto_exposure, {"auto_exposure", FieldType::boolean, "", 0, 1, "The picture's log-average becomes middle grey, or less, so that little burns out; `exposure` is added"}),
         field(&S::subpixel_shortcut, {"subpixel_shortcut", FieldType::choice, "", 0, 2,
               "Try a pixel's own objects first for new rays inside it", {"off", "exact", "trust"}}),
         field(&S::accelerator, {"accelerator", FieldType::choice, "", 0, 2, "How rays find objects", {"embree", "kay-kajiya", "linear"}}),

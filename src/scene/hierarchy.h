@@ -1,6 +1,8 @@
 // Walking the hierarchy of a scene.
 #pragma once
 
+#include <span>
+
 #include "math/mix_bits.h"
 #include "scene/motion.h"
 #include "scene/scene.h"
@@ -14,23 +16,26 @@ struct Appearance {
     const std::vector<MaterialId>* materials;  // of the nearest node from it upwards that names some
     std::uint64_t identity;                    // hash of the way down to it, the same whatever else the scene shows; a child listed twice: the same
     std::uint64_t motion = 0;                  // hash of how it moves: from the first node that does on the way down; 0: it stands still
+    std::uint8_t marks = 0;                    // of it and of all nodes above, together
 };
 
 // Of a node shown by another appearance; of a root, by 0.
 inline std::uint64_t identity_below(std::uint64_t parent, NodeId node) { return math::mix_bits(parent + node.value + 1); }
 
 // Calls visit(Appearance) in the order of the hierarchy (parents before children, as listed), with all where it is at a time of its motion, 0 to 1. The scene must
-// have passed validate().
+// have passed validate(). `marks`: bits of each node that those below it inherit; empty: none.
 template <class Visit>
-void walk_appearances(const Scene& scene, double time, Visit&& visit) {
+void walk_appearances(const Scene& scene, double time, Visit&& visit, std::span<const std::uint8_t> marks = {}) {
     static const std::vector<MaterialId> no_materials;
     std::vector<Appearance> open;
-    const auto open_all = [&](const std::vector<NodeId>& list, const math::Affine& to_world, const std::vector<MaterialId>* materials, std::uint64_t identity, std::uint64_t motion) {
+    const auto open_all = [&](const std::vector<NodeId>& list, const math::Affine& to_world, const std::vector<MaterialId>* materials, std::uint64_t identity, std::uint64_t motion,
+                              std::uint8_t inherited) {
         for (auto child = list.rbegin(); child != list.rend(); ++child) {
-            open.push_back({child->value, to_world, materials, identity_below(identity, *child), motion});
+            const auto own = marks.empty() ? std::uint8_t{0} : marks[child->value];
+            open.push_back({child->value, to_world, materials, identity_below(identity, *child), motion, static_cast<std::uint8_t>(inherited | own)});
         }
     };
-    open_all(scene.roots, {}, &no_materials, 0, 0);
+    open_all(scene.roots, {}, &no_materials, 0, 0, 0);
     while (!open.empty()) {
         Appearance at = open.back();  // to_world and materials are still those above the node
         open.pop_back();
@@ -40,7 +45,7 @@ void walk_appearances(const Scene& scene, double time, Visit&& visit) {
         if (at.motion || node.motion) at.motion = motion_below(at.motion, node);
         if (!node.materials.empty()) at.materials = &node.materials;
         if (node.shape.valid()) visit(at);
-        open_all(node.children, at.to_world, at.materials, at.identity, at.motion);
+        open_all(node.children, at.to_world, at.materials, at.identity, at.motion, at.marks);
     }
 }
 

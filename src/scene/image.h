@@ -17,7 +17,7 @@ struct Layer {
 
 struct Image {
     int width = 0, height = 0;
-    std::vector<Layer> layers;  // the first is "color": linear RGB, Rec. 709, before exposure and tone mapping
+    std::vector<Layer> layers;  // the first is "color": linear RGB, Rec. 709, before exposure and tone mapping; maybe with "A", which is multiplied in
 };
 
 }  // namespace crescente::scene

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/fields.h"
 #include "math/color.h"
@@ -54,7 +55,11 @@ struct Light {
     double radius = 0.5;             // of a disk or sphere, metres
     bool two_sided = false;          // flat lights shine to both sides
     bool visible = true;             // the camera sees the light itself
+    int points = 1;                  // levels that do not sample see so many points of it
     std::string group;               // lights of one name are sampled together; empty: by itself
+    // Light linking: names of objects, each with all below it. What is not lit does not mirror the light either; it still throws its shadow.
+    std::vector<std::string> only{};    // lights these alone; empty: everything
+    std::vector<std::string> except{};  // but not these
     static const FieldTable<Light>& fields();
     bool operator==(const Light&) const = default;
 };

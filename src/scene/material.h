@@ -7,6 +7,7 @@
 
 #include "base/fields.h"
 #include "math/color.h"
+#include "math/vec.h"
 #include "scene/texture.h"
 
 namespace crescente::scene {
@@ -32,7 +33,11 @@ struct ClassicMaterial {
     bool operator==(const ClassicMaterial&) const = default;
 };
 
-// glTF 2.0 metallic-roughness with KHR_materials_ior, _transmission, _volume and _clearcoat, factors only; metals may be given by their optical constants.
+// Which way the grain of a brushed surface runs. Automatic: by a mesh's texture coordinates where it has them, else along the axis.
+enum class Grain { automatic, surface, along, around };
+
+// glTF 2.0 metallic-roughness with KHR_materials_ior, _transmission, _volume, _specular, _clearcoat, _sheen, _anisotropy, _iridescence and _dispersion, factors only; metals
+// may be given by their optical constants.
 struct PhysicalMaterial {
     Rgb base_color{0.8f, 0.8f, 0.8f};
     double metallic = 0;
@@ -40,13 +45,26 @@ struct PhysicalMaterial {
     Rgb emissive{0, 0, 0};               // radiance, W/(sr m^2) up to the scene's common scale
     double ior = 1.5;
     double transmission = 0;
+    double dispersion = 0;               // 20 over the Abbe number; 0: one index for all wavelengths
     Rgb attenuation{0, 0, 0};            // absorption inside, 1/m
+    double specular = 1;                 // of a dielectric: its reflection is so much of what its index says
+    Rgb specular_color{1, 1, 1};         // the same at normal incidence, and may be more
     Rgb eta{0, 0, 0};                    // with k, the complex index of refraction eta + i k of a metal, in place of base_color
     Rgb k{0, 0, 0};                      // black: no constants are given
     double clearcoat = 0;                // share of the surface under a clear dielectric coat (index 1.5)
     double clearcoat_roughness = 0;
+    Rgb sheen_color{0, 0, 0};            // of fibres that stand up from cloth; black: none
+    double sheen_roughness = 0.5;
+    double anisotropy = 0;               // how much rougher the surface is along its grain than across: alpha = mix(roughness^2, 1, anisotropy^2)
+    double anisotropy_rotation = 0;      // of the grain, radians, counter-clockwise
+    Grain grain = Grain::automatic;
+    math::Vec3 grain_axis{1, 0, 0};      // in the shape's space; any length but zero
+    double iridescence = 0;              // share of the surface under a thin film
+    double iridescence_ior = 1.3;        // of the film
+    double iridescence_thickness = 400;  // of the film, nm
     double opacity = 1;                  // alpha coverage: the rest passes straight on
     bool double_sided = true;
+    bool catcher = false;                // the camera sees only the shadows and reflections that it catches, over what is behind the scene
     static const FieldTable<PhysicalMaterial>& fields();
     bool operator==(const PhysicalMaterial&) const = default;
 };

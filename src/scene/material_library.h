@@ -1,4 +1,4 @@
-// Materials by name, for every front end: metals from measured optical constants, plastics, paints, glasses, rubber and ceramic.
+// Materials by name, for every front end: metals from measured optical constants, plastics, paints, glasses, rubber, ceramic, wood, leather and cloth.
 #pragma once
 
 #include <span>
@@ -14,6 +14,7 @@ struct LibraryMaterial {
     std::string name, group;
     std::string note;  // source of the constants, or what it stands for
     PhysicalMaterial material;
+    std::vector<TextureBinding> textures{};  // procedures, at their true size
 };
 
 // All of them, group by group.

@@ -58,11 +58,6 @@ Panorama::Panorama(int width, int height, std::vector<Rgb> pixels)
     make_blurred();
 }
 
-std::size_t Panorama::bytes() const {
-    return pixels_.size() * sizeof(Rgb) + (row_ends_.size() + cell_ends_.size()) * sizeof(double) +
-           blurred_count * blurred_width * blurred_height * sizeof(Rgb);
-}
-
 Rgb Panorama::Lookup::at(double u, double v) const {
     const double x = u * width - 0.5, y = std::clamp(v * height - 0.5, 0.0, height - 1.0);
     const double left = std::floor(x), top = std::floor(y);

@@ -26,7 +26,6 @@ public:
     int height() const { return height_; }
     const std::vector<Rgb>& pixels() const { return pixels_; }
     std::uint64_t content() const { return content_; }  // checksum of size and pixels
-    std::size_t bytes() const;
     bool shines() const { return total_ > 0; }  // some direction is not black
 
     // Directions are unit vectors.

@@ -8,6 +8,7 @@
 namespace crescente::scene {
 
 enum class Level { visible, shadows, reflections, edges, soft, indirect };
+enum class Denoise { off, filter };
 enum class Tonemap { automatic, srgb, neutral };
 enum class AcceleratorKind { embree, kay_kajiya, linear };
 enum class SubpixelShortcut { off, exact, trust };
@@ -26,9 +27,11 @@ struct Settings {
     double noise = 0.01;           // soft, indirect: nodes are sampled until their error in the pixel is below this share of its brightness
     int samples = 256;             // soft, indirect: most of a node
     bool caustics = false;         // light that mirrors and glass throw on other surfaces; without it glass lets light through straight
+    Denoise denoise = Denoise::filter;  // soft, indirect: what is shown of light that has fewer samples than it wants
     double contrast = 0.08;        // corners that differ by more, on a perceptual 0..1 scale, split the pixel
     Tonemap tonemap = Tonemap::automatic;
     double exposure = 0;           // stops
+    bool auto_exposure = false;    // the finished picture says how bright it is developed, `exposure` is added (scene/tonemap.h)
     SubpixelShortcut subpixel_shortcut = SubpixelShortcut::off;  // `trust` may change pixels
     // ------------------------------------------------------------------------------------------------------------------
     AcceleratorKind accelerator = AcceleratorKind::embree;

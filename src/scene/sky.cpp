@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 
 namespace crescente::scene {
 namespace {
@@ -61,26 +64,42 @@ struct SkyModel {
     }
 };
 
-std::shared_ptr<const Panorama> panorama_of(const Daylight& daylight) {
-    constexpr int width = 512, height = 256;
-    const Vec3 to_sun = direction_to(daylight.sun);
-    const SkyModel model(daylight.turbidity, to_sun.y);
-    std::vector<Rgb> pixels;
-    double level[3] = {0, 0, 0};  // irradiance of the ground by the sky
-    for (int row = 0; row < height / 2; ++row) {
-        const double up = std::cos(pi * (row + 0.5) / height), flat = std::sqrt(1 - up * up);
-        const double angle = (std::cos(pi * row / height) - std::cos(pi * (row + 1) / height)) * 2 * pi / width;
-        for (int column = 0; column < width; ++column) {
-            const double turn = 2 * pi * ((column + 0.5) / width - 0.5);
-            const Rgb p = model.radiance(up, dot(Vec3{flat * std::cos(turn), up, flat * std::sin(turn)}, to_sun));
-            pixels.push_back(p);
-            for (int k = 0; k < 3; ++k) level[k] += static_cast<double>(p[k]) * up * angle;
-        }
+int days_in(int year, int month) {
+    constexpr int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    return days[month - 1] + (month == 2 && year % 4 == 0);  // right for the years that are let through
+}
+
+// "2024-06-21T14:30", with seconds and a Z if one likes.
+std::optional<Moment> moment_of(const std::string& text) {
+    Moment m;
+    int hours = 0, minutes = 0, seconds = 0, end = 0;
+    if (std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d%n", &m.year, &m.month, &m.day, &hours, &minutes, &end) != 5) return std::nullopt;
+    std::string rest = text.substr(static_cast<std::size_t>(end));
+    if (!rest.empty() && rest.front() == ':') {
+        int more = 0;
+        if (std::sscanf(rest.c_str(), ":%2d%n", &seconds, &more) != 1) return std::nullopt;
+        rest.erase(0, static_cast<std::size_t>(more));
     }
-    const Rgb sun = sun_irradiance(daylight) * static_cast<float>(to_sun.y);
-    const Rgb ground = (Rgb{static_cast<float>(level[0]), static_cast<float>(level[1]), static_cast<float>(level[2])} + sun) * static_cast<float>(ground_albedo / pi);
-    pixels.resize(std::size_t{width} * height, ground);
-    return std::make_shared<const Panorama>(width, height, std::move(pixels));
+    if (!rest.empty() && rest != "Z") return std::nullopt;
+    const bool date = m.year >= 1950 && m.year <= 2050 && m.month >= 1 && m.month <= 12 && m.day >= 1 && m.day <= days_in(m.year, m.month);
+    if (!date || hours < 0 || hours > 23 || minutes < 0 || minutes > 59 || seconds < 0 || seconds > 59) return std::nullopt;
+    m.hour = hours + minutes / 60.0 + seconds / 3600.0;
+    return m;
+}
+
+// Numbers between commas; nothing if there is anything else.
+std::optional<std::vector<double>> numbers_of(std::string_view text) {
+    std::vector<double> numbers;
+    while (true) {
+        const auto comma = text.find(',');
+        const std::string_view one = text.substr(0, comma);
+        double value = 0;
+        const auto [end, error] = std::from_chars(one.data(), one.data() + one.size(), value);
+        if (error != std::errc{} || end != one.data() + one.size() || !std::isfinite(value)) return std::nullopt;
+        numbers.push_back(value);
+        if (comma == std::string_view::npos) return numbers;
+        text.remove_prefix(comma + 1);
+    }
 }
 
 }  // namespace
@@ -122,26 +141,84 @@ Rgb sun_irradiance(const Daylight& daylight) {
     return {passes(0.612), passes(0.549), passes(0.465)};
 }
 
-void add_daylight(Scene& scene, const Daylight& daylight, Vec3 center, double radius) {
-    if (!scene.environment) scene.environment.emplace();
-    scene.environment->image.clear();
-    scene.environment->panorama = panorama_of(daylight);
-    scene.environment->rotation = 0;
-    scene.environment->intensity = 1;
+Expected<Daylight> daylight_of(const std::string& text) {
+    const auto wrong = [&](std::string reason, std::string hint = {}) { return failure(ErrorKind::input, {"", "", std::move(reason), std::move(hint)}); };
+    constexpr const char* forms = "write azimuth,elevation or 2024-06-21T14:30,latitude,longitude, in degrees and universal time (1950 to 2050), and a turbidity after it if you like";
+    const std::string shown = "'" + text.substr(0, 100) + "'";
+    std::string_view numbers_text = text;
+    std::optional<Moment> moment;
+    if (text.find('T') != std::string::npos) {
+        const auto comma = text.find(',');
+        moment = moment_of(text.substr(0, comma));
+        if (!moment || comma == std::string::npos) return wrong(shown + " says no date, time and place", forms);
+        numbers_text.remove_prefix(comma + 1);
+    }
+    const auto numbers = numbers_of(numbers_text);
+    if (!numbers || numbers->size() < 2 || numbers->size() > 3) return wrong(shown + " says no place of the sun", forms);
+    const double first = (*numbers)[0], second = (*numbers)[1];
+    Daylight daylight;
+    if (numbers->size() == 3) daylight.turbidity = (*numbers)[2];
+    if (!(daylight.turbidity >= 2 && daylight.turbidity <= 10)) return wrong("the turbidity must be from 2 (very clear) to 10 (haze)");
+    if (moment) {
+        if (std::abs(first) > 90 || std::abs(second) > 180) return wrong("a latitude is from -90 to 90, a longitude from -180 to 180");
+        daylight.sun = sun_position(*moment, first * degree, second * degree);
+    } else {
+        if (std::abs(first) > 360 || std::abs(second) > 90) return wrong("an azimuth is from -360 to 360, an elevation up to 90");
+        daylight.sun = {first * degree, second * degree};
+    }
+    if (!(daylight.sun.elevation > 0)) {
+        char height[64];
+        std::snprintf(height, sizeof height, "the sun stands at %.1f degrees, below the horizon", daylight.sun.elevation / degree);
+        return wrong(height);
+    }
+    return daylight;
+}
 
+std::shared_ptr<const Panorama> panorama_of(const Daylight& daylight) {
+    constexpr int width = 512, height = 256;
+    const Vec3 to_sun = direction_to(daylight.sun);
+    const SkyModel model(daylight.turbidity, to_sun.y);
+    std::vector<Rgb> pixels;
+    double level[3] = {0, 0, 0};  // irradiance of the ground by the sky
+    for (int row = 0; row < height / 2; ++row) {
+        const double up = std::cos(pi * (row + 0.5) / height), flat = std::sqrt(1 - up * up);
+        const double angle = (std::cos(pi * row / height) - std::cos(pi * (row + 1) / height)) * 2 * pi / width;
+        for (int column = 0; column < width; ++column) {
+            const double turn = 2 * pi * ((column + 0.5) / width - 0.5);
+            const Rgb p = model.radiance(up, dot(Vec3{flat * std::cos(turn), up, flat * std::sin(turn)}, to_sun));
+            pixels.push_back(p);
+            for (int k = 0; k < 3; ++k) level[k] += static_cast<double>(p[k]) * up * angle;
+        }
+    }
+    const Rgb sun = sun_irradiance(daylight) * static_cast<float>(to_sun.y);
+    const Rgb ground = (Rgb{static_cast<float>(level[0]), static_cast<float>(level[1]), static_cast<float>(level[2])} + sun) * static_cast<float>(ground_albedo / pi);
+    pixels.resize(std::size_t{width} * height, ground);
+    return std::make_shared<const Panorama>(width, height, std::move(pixels));
+}
+
+Expected<void> make_sky(Environment& environment) {
+    if (environment.sky.empty()) return {};
+    const auto daylight = daylight_of(environment.sky);
+    if (!daylight) return tl::unexpected(daylight.error());
+    environment.panorama = panorama_of(*daylight);
+    return {};
+}
+
+Light sun_of(const Daylight& daylight, Vec3 center, double radius, double rotation) {
     constexpr double distances = 1e4;  // in radii: over the model the direction changes by less than the sun's own width
-    const double distance = distances * radius;
+    const double distance = distances * radius, turn_cos = std::cos(rotation), turn_sin = std::sin(rotation);
+    const Vec3 d = direction_to(daylight.sun);
     const Rgb irradiance = sun_irradiance(daylight);
     const float strongest = max_component(irradiance);
     Light sun;
     sun.name = "sun";
     sun.kind = LightKind::sphere;
-    sun.position = center + direction_to(daylight.sun) * distance;
+    sun.position = center + Vec3{d.x * turn_cos + d.z * turn_sin, d.y, d.z * turn_cos - d.x * turn_sin} * distance;
     sun.radius = distance * std::sin(0.53 / 2 * degree);
     sun.intensity = strongest * distance * distance;
     if (strongest > 0) sun.color = irradiance * (1 / strongest);
     sun.visible = false;
-    scene.lights.push_back(sun);
+    return sun;
 }
 
 }  // namespace crescente::scene

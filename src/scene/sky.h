@@ -1,7 +1,12 @@
 // Daylight: a clear sky and the sun, by the sun's place or by date, time and place on the earth.
 #pragma once
 
-#include "scene/scene.h"
+#include <memory>
+#include <string>
+
+#include "base/error.h"
+#include "scene/environment.h"
+#include "scene/light.h"
 
 namespace crescente::scene {
 
@@ -39,8 +44,17 @@ math::Rgb sky_radiance(const Daylight& daylight, math::Vec3 direction);
 // aerosols; air mass by Kasten and Young 1989).
 math::Rgb sun_irradiance(const Daylight& daylight);
 
-// Surrounds the scene with the sky and a grey ground, and adds the sun as a distant sphere that the camera does not see, 0.53 degrees wide. Lights and the backdrop that the scene has stay.
-// `center` and `radius` of what is to be lit, metres. The sun must stand above the horizon, the turbidity be from 2 to 10.
-void add_daylight(Scene& scene, const Daylight& daylight, math::Vec3 center, double radius);
+// "AZIMUTH,ELEVATION" or "2024-06-21T14:30,LATITUDE,LONGITUDE" (universal time), in degrees, either with ",TURBIDITY" after it. Errors (input): anything else,
+// numbers out of range, a sun below the horizon.
+Expected<Daylight> daylight_of(const std::string& text);
+
+// The sky above a grey ground, on which nothing casts a shadow.
+std::shared_ptr<const Panorama> panorama_of(const Daylight& daylight);
+
+// Gives an environment that says a sky its panorama. Errors: as daylight_of.
+Expected<void> make_sky(Environment& environment);
+
+// The sun as a distant sphere that the camera does not see, 0.53 degrees wide. `center` and `radius` of what is to be lit, metres; the sky is turned by `rotation` about +y, radians.
+Light sun_of(const Daylight& daylight, math::Vec3 center, double radius, double rotation);
 
 }  // namespace crescente::scene

@@ -10,12 +10,42 @@ namespace crescente::scene {
 // Whether camera, lights and ground can be fitted to a scene of these bounds: there is something, and squares of its lengths are numbers.
 bool can_be_framed(const math::Bounds& everything);
 
-// How a bare model is lit. `points` makes soft light of many point lights, for the levels that sample none; the others are of a few lights with extent.
-enum class Studio { points, softbox, three_point, overhead, tent };
-inline constexpr std::string_view studio_names[] = {"points", "softbox", "three-point", "overhead", "tent"};
+// How a model is lit: by lights with extent, which levels that sample none see as points.
+enum class Studio { standard, softbox, three_point, overhead, tent, turntable };
+inline constexpr std::string_view studio_names[] = {"default", "softbox", "three-point", "overhead", "tent", "turntable"};
 
-// Adds what is missing: a camera that frames what is visible when the scene has none; lights, ground and environment when it has
-// no light of its own, or when a studio is asked for. The scene must be valid, and can_be_framed() true of its bounds.
-void add_studio(Scene& scene, std::optional<Studio> asked = {});
+// What a model stands on.
+enum class Ground {
+    studio,   // a wide grey disk
+    catcher,  // the same, of which only shadows and reflections are seen
+    none,
+};
+
+// Where a model is and how large: what a studio is fitted to.
+struct Placement {
+    explicit Placement(const Scene& scene);
+
+    math::Bounds box;     // of what is visible and bounded
+    math::Vec3 center;
+    double radius;        // half the diagonal of the box, metres
+    double azimuth = 0;   // of the camera, degrees; 0 where there is none
+};
+
+// Whether the scene brings light of its own.
+bool shines(const Scene& scene);
+
+// The following take a valid scene of whose bounds can_be_framed() is true.
+
+// Frames what is visible.
+void add_camera(Scene& scene);
+
+// Lights, and an environment if the scene has none.
+void add_studio_lights(Scene& scene, const Placement& at, Studio studio);
+
+// A hair below the model; nothing if the camera would not see its upper side. There must be a camera.
+void add_ground(Scene& scene, const Placement& at, Ground ground);
+
+// All that is missing: a camera when the scene has none; lights, ground and environment when it has no light of its own.
+void add_studio(Scene& scene);
 
 }  // namespace crescente::scene

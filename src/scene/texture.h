@@ -17,7 +17,7 @@
 
 namespace crescente::scene {
 
-enum class TextureKind { image, checker, noise, brushed, wood, vertex_color };
+enum class TextureKind { image, checker, noise, brushed, wood, vertex_color, leather, flakes };
 enum class TextureProjection { uv, box, planar, cylindrical, spherical, solid };
 enum class ColorSpace { automatic, srgb, linear };
 enum class Wrap { repeat, clamp, mirror };
@@ -32,11 +32,11 @@ struct Texture {
     Channel channel = Channel::automatic;            // automatic: all of colours, red for numbers
     TextureProjection projection = TextureProjection::uv;
     int set = 0;                                     // of a mesh's coordinates
-    double size = 0.1;                               // of one repeat (image), cell (checker, noise) or ring (wood), m; nothing to do with uv
+    double size = 0.1;                               // of one repeat (image), cell (checker, noise), ring (wood), grain (leather) or flake, m; nothing to do with uv
     math::Vec3 axis{0, 1, 0};                        // of the projection, or along the wood's trunk or the brush, in the shape's space; any length but zero
     double blend = 0.2;                              // box: how softly one side goes over into the next
     double offset_u = 0, offset_v = 0, rotation = 0, scale_u = 1, scale_v = 1;  // of coordinates: scaled, turned, moved (KHR_texture_transform)
-    double strength = 1;                             // 0: nothing; of normals and creases their depth; of bumps their height, m
+    double strength = 1;                             // 0: nothing; of normals and creases their depth; of bumps their height, m; of flakes as normals their slopes
     double cutoff = 0;                               // opacity: what is less is not there, the rest wholly; 0: as it is
     math::Rgb color_a{1, 1, 1}, color_b{0, 0, 0};    // what procedures mix
     double stretch = 30;                             // brushed: how long scratches are for their width
@@ -53,8 +53,9 @@ struct TextureBinding {
     bool operator==(const TextureBinding&) const = default;
 };
 
-// Not fields: bent normals (of a normal map, or of a bump map by its height), and light from around that does not reach into creases.
-inline constexpr std::string_view relief_targets[] = {"normal", "bump", "occlusion"};
+// Not fields: bent normals (of a normal map, or of a bump map by its height), the same of the clear coat alone (which follows the surface where it has none of its own), light from
+// around that does not reach into creases, and where the grain runs (red and green: its direction by those of the texture's u and v, 0.5 for 0).
+inline constexpr std::string_view relief_targets[] = {"normal", "bump", "clearcoat_normal", "occlusion", "grain"};
 
 // Whether a texture may act on a field. What a body is made of inside, and what bends rays, is the same everywhere.
 bool may_be_textured(const FieldInfo& field);

@@ -145,4 +145,26 @@ void display_image(std::span<const float> linear, Tonemap tonemap, double exposu
     display_image_as<16>(linear, tonemap, exposure, out);
 }
 
+double automatic_exposure(std::span<const float> linear, std::size_t channels) {
+    constexpr double middle_grey = 0.18, darkest = 1e-4;  // below, a pixel is no more than dark
+    constexpr double burnt = 0.05;                        // share of pixels that may be
+    double sum = 0, weights = 0;
+    std::vector<float> covering;  // luminance of pixels that cover more than half
+    for (std::size_t i = 0; i + channels <= linear.size(); i += channels) {
+        const float luminance = math::luminance({linear[i], linear[i + 1], linear[i + 2]}), alpha = channels == 4 ? linear[i + 3] : 1;
+        if (!(luminance > 0) || !std::isfinite(luminance) || !(alpha > 0)) continue;
+        sum += alpha * std::log2(std::max(darkest, double(luminance) / alpha));
+        weights += alpha;
+        if (alpha > 0.5f) covering.push_back(luminance / alpha);
+    }
+    if (!(weights > 0)) return 0;
+    double stops = std::log2(middle_grey) - sum / weights;
+    if (!covering.empty()) {
+        const auto bright = covering.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(covering.size() - 1) * (1 - burnt));
+        std::nth_element(covering.begin(), bright, covering.end());
+        stops = std::min(stops, -std::log2(std::max(darkest, double{*bright})));
+    }
+    return std::clamp(std::round(stops * 100) / 100, -32.0, 32.0);
+}
+
 }  // namespace crescente::scene

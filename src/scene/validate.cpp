@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "base/spelling.h"
 #include "scene/camera_check.h"
 #include "scene/field_check.h"
 
@@ -28,17 +31,12 @@ class Validator {
 public:
     Validator(const Scene& scene, const std::string& file) : scene_(scene), file_(file) {}
 
-    Problems run() {
+    // `all`: or of shapes the edited ones alone.
+    Problems run(bool all, std::span<const ShapeId> edited) {
         check_things();
-        for (std::uint32_t i = 0; i < scene_.shapes.size(); ++i) check_shape(i);
-        if (check_hierarchy()) check_visible(true);
-        return std::move(problems_);
-    }
-
-    Problems run_edited(std::span<const ShapeId> edited) {
-        check_things();
+        for (std::uint32_t i = 0; all && i < scene_.shapes.size(); ++i) check_shape(i);
         for (const ShapeId shape : edited) check_shape(shape.value);
-        if (check_hierarchy()) check_visible(false);
+        if (check_hierarchy()) check_visible(all);
         return std::move(problems_);
     }
 
@@ -61,12 +59,14 @@ private:
         if (scene_.environment) {
             check_fields(*scene_.environment, "/environment");
             if (!scene_.environment->image.empty() && !scene_.environment->panorama) add("/environment/image", "the picture was not read");
+            if (!scene_.environment->sky.empty() && !scene_.environment->panorama) add("/environment/sky", "the sky was not made");
         }
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], "/lights/" + key_of(scene_.lights[i].name, i));
         check_light_groups();
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
+            if (const auto* m = std::get_if<PhysicalMaterial>(&scene_.materials[i].model)) check_grain(*m, place);
             for (const TextureBinding& binding : scene_.materials[i].textures) check_texture(scene_.materials[i], binding, place + "/textures/" + escaped(binding.target));
         }
     }
@@ -84,6 +84,11 @@ private:
         for (const auto& f : Owner::fields()) {
             if (const auto wrong = range_problem(f.info, f.get(owner), scene_.unit.metres, scene_.unit.name)) add(place + "/" + f.info.name, *wrong);
         }
+    }
+
+    void check_grain(const PhysicalMaterial& m, const std::string& place) {
+        const double l = length(m.grain_axis);
+        if (is_finite(m.grain_axis) && !(l > 0 && std::isfinite(l))) add(place + "/grain_axis", "has no direction");
     }
 
     void check_texture(const Material& material, const TextureBinding& binding, const std::string& place) {
@@ -131,8 +136,19 @@ private:
         if (light.falloff == Falloff::classic && light.constant == 0 && light.linear == 0 && light.quadratic == 0) {
             add(place + "/constant", "all terms of the classic falloff are 0");
         }
+        for (const auto& [list, field] : {std::pair{&light.only, "/only/"}, std::pair{&light.except, "/except/"}}) {
+            for (std::size_t i = 0; i < list->size(); ++i) check_object_name((*list)[i], place + field + std::to_string(i));
+        }
         if (has_extent(light)) check_extent(light, place);
         if (!light.profile.empty()) check_profile(light, place);
+    }
+
+    void check_object_name(const std::string& name, const std::string& place) {
+        if (node_names_.empty()) std::transform(scene_.nodes.begin(), scene_.nodes.end(), std::inserter(node_names_, node_names_.end()), [](const Node& n) { return n.name; });
+        if (!name.empty() && node_names_.contains(name)) return;
+        constexpr std::ptrdiff_t most_candidates = 10000;
+        const std::vector<std::string> known(node_names_.begin(), std::next(node_names_.begin(), std::min(most_candidates, std::ssize(node_names_))));
+        add(place, "there is no object '" + name.substr(0, 300) + "'", spelling_hint(name, known));
     }
 
     void check_profile(const Light& light, const std::string& place) {
@@ -467,12 +483,13 @@ private:
     const std::string& file_;
     Problems problems_;
     std::vector<std::uint32_t> parents_;  // the first parent of each node
+    std::set<std::string> node_names_;  // once they were asked for
 };
 
 }  // namespace
 
-Problems validate(const Scene& scene, const std::string& file) { return Validator{scene, file}.run(); }
+Problems validate(const Scene& scene, const std::string& file) { return Validator{scene, file}.run(true, {}); }
 
-Problems validate_edited(const Scene& scene, const std::string& file, std::span<const ShapeId> edited) { return Validator{scene, file}.run_edited(edited); }
+Problems validate_edited(const Scene& scene, const std::string& file, std::span<const ShapeId> edited) { return Validator{scene, file}.run(false, edited); }
 
 }  // namespace crescente::scene

@@ -66,7 +66,7 @@ TEST_F(Render, BareModelGetsTheStudio) {
 
 TEST_F(Render, EveryStudioIsAnother) {
     std::vector<std::string> pictures;
-    for (const char* studio : {"points", "softbox", "three-point", "overhead", "tent"}) {
+    for (const char* studio : {"default", "softbox", "three-point", "overhead", "tent", "turntable"}) {
         const Outcome outcome = crescente({"render", (scenes / "2CylinderEngine.glb").string(), "-o", path("a.png"), "--size", "60x40", "--studio", studio, "-q"});
         ASSERT_EQ(outcome.code, 0) << studio << outcome.err;
         const Picture picture = read_png(path("a.png"));
@@ -118,6 +118,41 @@ TEST_F(Render, DaylightByAnglesOrByTimeAndPlace) {
         EXPECT_EQ(outcome.code, 2) << sky;
         EXPECT_TRUE(contains(outcome.err, said)) << outcome.err;
     }
+}
+
+TEST_F(Render, TransparentBackgroundAndGroundThatCatches) {
+    const std::string model = (scenes / "2CylinderEngine.glb").string();
+    const Outcome done = crescente({"render", model, "-o", path("a.png"), "--size", "60x40", "--ground", "catch", "--background", "transparent", "-q"});
+    ASSERT_EQ(done.code, 0) << done.err;
+    std::ifstream stream(path("a.png"), std::ios::binary);
+    const std::string png{std::istreambuf_iterator<char>(stream), {}};
+    ASSERT_GT(png.size(), 26u);
+    EXPECT_EQ(png[25], 6) << "the colour type with alpha";
+    const Outcome refused = crescente({"render", model, "-o", path("a.jpg"), "--size", "60x40", "--background", "transparent"});
+    EXPECT_NE(refused.code, 0);
+    EXPECT_TRUE(contains(refused.err, "no alpha channel")) << refused.err;
+    const Outcome blue = crescente({"render", model, "-o", path("blue.png"), "--size", "60x40", "--background", "#0000ff", "--ground", "none", "-q"});
+    ASSERT_EQ(blue.code, 0) << blue.err;
+    EXPECT_GT(read_png(path("blue.png")).rgb[2], 200);
+    EXPECT_LT(read_png(path("blue.png")).rgb[0], 60);
+    const Outcome wrong = crescente({"render", model, "-o", path("a.png"), "--background", "blue"});
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_TRUE(contains(wrong.err, "'blue' is no background")) << wrong.err;
+}
+
+// However bright the scene is, it is developed alike.
+TEST_F(Render, AutomaticExposure) {
+    const std::string model = (scenes / "2CylinderEngine.glb").string();
+    const auto render = [&](const char* name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"render", model, "-o", path(name), "--size", "60x40", "--sky", "200,40", "--tonemap", "srgb", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = crescente(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return read_png(path(name)).rgb;
+    };
+    EXPECT_EQ(render("a.png", {"--exposure", "auto"}), render("b.png", {"--set", "environment.intensity=1", "--set", "settings.auto_exposure=true"}));
+    const auto normal = render("c.png", {"--exposure", "auto"}), brighter = render("d.png", {"--exposure", "auto", "--set", "settings.exposure=1"});
+    EXPECT_GT(std::accumulate(brighter.begin(), brighter.end(), 0.0), 1.15 * std::accumulate(normal.begin(), normal.end(), 0.0));
 }
 
 TEST_F(Render, NamedViewsDiffer) {

@@ -5,16 +5,12 @@
 #include <draco/mesh/triangle_soup_mesh_builder.h>
 #endif
 
+#include "gltf_made.h"
 #include "io/gltf_draco.h"
-#include "reader_check.h"
 #include "scene/validate.h"
 
 namespace crescente::io {
 namespace {
-
-const scene::PhysicalMaterial& physical(const scene::Scene& scene, std::size_t i) {
-    return std::get<scene::PhysicalMaterial>(scene.materials.at(i).model);
-}
 
 struct Known {
     const char* file;
@@ -70,15 +66,6 @@ TEST(Gltf, LightsOfTheSharedModel) {
     EXPECT_TRUE(loaded->scene.camera);
 }
 
-const scene::Texture& texture(const scene::Material& material, const std::string& target) {
-    for (const scene::TextureBinding& binding : material.textures) {
-        if (binding.target == target) return binding.texture;
-    }
-    static const scene::Texture none;
-    ADD_FAILURE() << material.name << " has no texture for " << target;
-    return none;
-}
-
 TEST(Gltf, TexturesOfTheSharedModels) {
     REQUIRE_ASSET("gltf/Fox.glb");
     const auto loaded = read_scene(asset("gltf/Fox.glb"));
@@ -103,47 +90,6 @@ TEST(Gltf, TexturesOfTheSharedModels) {
     EXPECT_TRUE(warns_of(*loaded, "3 animations"));
     EXPECT_TRUE(warns_of(*loaded, "1 nodes have skins"));
 }
-
-// A file made here: its parts can be replaced by what a test wants to see.
-struct Made {
-    std::string bytes;  // the buffer
-    std::string views, accessors;
-    int view_count = 0, accessor_count = 0;
-
-    template <class T>
-    int accessor(const std::vector<T>& values, int component_type, const std::string& type, int components, const std::string& more = {}) {
-        while (bytes.size() % 4 != 0) bytes.push_back('\0');
-        const std::size_t offset = bytes.size();
-        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-        views += (view_count ? "," : "") + std::string(R"({"buffer":0,"byteOffset":)") + std::to_string(offset) + R"(,"byteLength":)" +
-                 std::to_string(values.size() * sizeof(T)) + "}";
-        accessors += (accessor_count ? "," : "") + std::string(R"({"bufferView":)") + std::to_string(view_count++) + R"(,"componentType":)" +
-                     std::to_string(component_type) + R"(,"type":")" + type + R"(","count":)" +
-                     std::to_string(values.size() / static_cast<std::size_t>(components)) + more + "}";
-        return accessor_count++;
-    }
-
-    std::string glb(const std::string& rest) const {
-        std::string json = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":)" + std::to_string(bytes.size()) + R"(}],"bufferViews":[)" + views +
-                           R"(],"accessors":[)" + accessors + "]" + (rest.empty() ? "" : ",") + rest + "}";
-        std::string body = bytes;
-        while (json.size() % 4 != 0) json.push_back(' ');
-        while (body.size() % 4 != 0) body.push_back('\0');
-        const auto word = [](std::size_t v) {
-            const auto v32 = static_cast<std::uint32_t>(v);
-            return std::string(reinterpret_cast<const char*>(&v32), 4);
-        };
-        return "glTF" + word(2) + word(28 + json.size() + body.size()) + word(json.size()) + "JSON" + json + word(body.size()) +
-               std::string("BIN\0", 4) + body;
-    }
-};
-
-Expected<Loaded> read(const std::string& bytes) { return read_gltf(bytes, "test.glb", "/nowhere"); }
-
-const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
-const std::string one_node = R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}])";
-
-std::string mesh_with(const std::string& primitives) { return R"("meshes":[{"primitives":[)" + primitives + "]}]," + one_node; }
 
 TEST(Gltf, TrianglesStripsAndFans) {
     Made made;
@@ -282,35 +228,6 @@ TEST(Gltf, TexturesWithSamplersTransformsAndAlpha) {
         EXPECT_FALSE(read(made.glb(wrong + mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0})")))) << wrong;
     }
     EXPECT_FALSE(read(made.glb(mesh_with(R"({"attributes":{"POSITION":0,"TEXCOORD_0":0},"mode":6})")))) << "coordinates of three numbers";
-}
-
-TEST(Gltf, MaterialFactorsAndExtensions) {
-    Made made;
-    made.accessor(square, 5126, "VEC3", 3);
-    const auto loaded = read(made.glb(
-        R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25},"alphaMode":"BLEND","doubleSided":true,)"
-        R"("emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":4},"KHR_materials_ior":{"ior":1.3},"KHR_materials_clearcoat":{"clearcoatFactor":0.7,"clearcoatRoughnessFactor":0.2},)"
-        R"("KHR_materials_transmission":{"transmissionFactor":0.9},"KHR_materials_volume":{"thicknessFactor":1,"attenuationDistance":0.5,"attenuationColor":[1,0.5,0.25]}}},)"
-        R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.3]},"alphaMode":"MASK"},{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.3]}}],)" +
-        mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0},{"attributes":{"POSITION":0},"mode":6,"material":1},{"attributes":{"POSITION":0},"mode":6,"material":2})")));
-    ASSERT_TRUE(loaded) << loaded.error().text();
-    const auto& m = physical(loaded->scene, 0);
-    EXPECT_EQ(m.base_color, (math::Rgb{0.1f, 0.2f, 0.3f}));
-    EXPECT_EQ(m.metallic, 0.5);
-    EXPECT_EQ(m.roughness, 0.25);
-    EXPECT_EQ(m.opacity, 0.4);
-    EXPECT_TRUE(m.double_sided);
-    EXPECT_EQ(m.emissive, (math::Rgb{4, 2, 0}));
-    EXPECT_EQ(m.ior, 1.3);
-    EXPECT_EQ(m.clearcoat, 0.7);
-    EXPECT_EQ(m.clearcoat_roughness, 0.2);
-    EXPECT_EQ(m.transmission, 0.9);
-    EXPECT_NEAR(m.attenuation.r, 0, 1e-6);
-    EXPECT_NEAR(m.attenuation.g, std::log(2.0) / 0.5, 1e-6);
-    EXPECT_NEAR(m.attenuation.b, std::log(4.0) / 0.5, 1e-6);
-    EXPECT_EQ(physical(loaded->scene, 1).opacity, 0);  // below the cutoff
-    EXPECT_EQ(physical(loaded->scene, 2).opacity, 1);
-    EXPECT_EQ(physical(loaded->scene, 2).metallic, 1);  // the format's default
 }
 
 TEST(Gltf, TheFolderIsTheBorder) {

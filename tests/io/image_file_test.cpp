@@ -120,6 +120,36 @@ TEST_F(ImageFile, PngHoldsTheDisplayedColours) {
     EXPECT_EQ(files(), 1u);  // nothing left beside
 }
 
+// Alpha stays apart from the colours; what shines without covering, a reflection on ground that is not seen, gets as much as it is bright.
+TEST_F(ImageFile, PngKeepsAlpha) {
+    Image image{4, 1, {{"color", {"R", "G", "B", "A"}, {0, 0, 0, 0, 0, 0, 0, 0.4f, 0.1f, 0.2f, 0.05f, 0.5f, 0.3f, 0.15f, 0, 0}}}};
+    ASSERT_TRUE(io::write_image(image, in("a.png"), {}));
+    const Png png = read_png(in("a.png"));
+    ASSERT_EQ(png.rows[0].size(), 16u);
+    const auto& row = png.rows[0];
+    const auto encoded = [](float linear) { return int(scene::srgb_encode(linear) * 255 + 0.5f); };
+    EXPECT_EQ(row[3], 0);
+    EXPECT_EQ(row[4] + row[5] + row[6], 0);
+    EXPECT_EQ(row[7], 102);
+    EXPECT_EQ(row[8], encoded(0.2f));
+    EXPECT_EQ(row[9], encoded(0.4f));
+    EXPECT_EQ(row[11], 128);
+    EXPECT_EQ(row[12], 255);
+    EXPECT_EQ(row[13], encoded(0.5f));
+    EXPECT_EQ(row[15], int(0.3f * 255 + 0.5f));
+    for (const char* name : {"a.jpg", "a.hdr"}) {
+        const auto done = io::write_image(image, in(name), {});
+        ASSERT_FALSE(done);
+        EXPECT_NE(done.error().text().find("alpha"), std::string::npos);
+        EXPECT_FALSE(io::can_write(in(name), true));
+    }
+    if (!io::has_openimageio() || !has_oiiotool()) return;
+    ASSERT_TRUE(io::write_image(image, in("a.exr"), {}));
+    EXPECT_NE(output_of("oiiotool --dumpdata " + in("a.exr").string()).find("Pixel (2, 0): 0.100000001 0.200000003 0.050000001 0.500000000"), std::string::npos);
+    ASSERT_TRUE(io::write_image(image, in("a.tif"), {}));
+    EXPECT_NE(output_of("oiiotool --info -v " + in("a.tif").string()).find("4 channel"), std::string::npos);
+}
+
 TEST_F(ImageFile, FormatsThroughOpenImageIO) {
     if (!io::has_openimageio()) GTEST_SKIP() << "built without OpenImageIO";
     if (!has_oiiotool()) GTEST_SKIP() << "oiiotool (openimageio-tools) is not installed";

@@ -110,6 +110,55 @@ TEST_F(PanoramaFile, WarnsOfWhatItMends) {
     EXPECT_EQ(read->panorama->pixels()[2], (math::Rgb{0, 1, 1}));
 }
 
+TEST_F(PanoramaFile, RefusesStrips) {
+    expect_says(problem_of(write("strip.exr", 65, 1, rgb, ramp(195))), "65 x 1 pixels cannot surround anything");
+    expect_says(problem_of(write("tower.exr", 1, 65, rgb, ramp(195))), "1 x 65 pixels cannot surround anything");
+    EXPECT_TRUE(io::read_panorama(write("wide.exr", 64, 1, rgb, ramp(192))));
+}
+
+TEST_F(PanoramaFile, WarningsReachWhoeverEdits) {
+    const fs::path odd = write("odd.exr", 3, 2, rgb, ramp(18));
+    scene::Scene s;
+    const auto warned = io::apply_override(s, "environment.image=" + odd.string());
+    ASSERT_TRUE(warned);
+    ASSERT_EQ(warned->size(), 1u);
+    expect_says(warned->front().text(), "3 x 2");
+    for (const char* edit : {R"({"set": {"environment.image": "odd.exr"}})", R"({"environment": {"image": "odd.exr"}})"}) {
+        Problems warnings;
+        const auto json = [&] {
+            io::ProblemList problems{"script"};
+            return io::parse_json(edit, problems);
+        }();
+        ASSERT_TRUE(io::read_edit(*json, s, (folder_ / "script").string(), &warnings));
+        ASSERT_EQ(warnings.size(), 1u) << edit;
+    }
+}
+
+TEST_F(PanoramaFile, ASkyIsMadeWhereOneIsSaid) {
+    std::ofstream(folder_ / "scene.json") << R"({"environment": {"sky": "160,40,2.5", "rotation": 20}, "objects": {"ball": {"shape": {"sphere": {}}}}})";
+    const auto loaded = io::read_scene(folder_ / "scene.json");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    ASSERT_TRUE(loaded->scene.environment->panorama);
+    EXPECT_TRUE(loaded->scene.environment->lights());
+    EXPECT_TRUE(loaded->scene.lights.empty()) << "the sun is the sky's own";
+    std::ofstream(folder_ / "again.json") << io::write_scene_text(loaded->scene);
+    const auto again = io::read_scene(folder_ / "again.json");
+    ASSERT_TRUE(again) << again.error().text();
+    EXPECT_EQ(again->scene.environment, loaded->scene.environment);
+
+    std::ofstream(folder_ / "night.json") << R"({"environment": {"sky": "160,-4"}, "objects": {"ball": {"shape": {"sphere": {}}}}})";
+    const auto night = io::read_scene(folder_ / "night.json");
+    ASSERT_FALSE(night);
+    expect_says(night.error().text(), "night.json: line 1, /environment/sky: ");
+    expect_says(night.error().text(), "-4.0 degrees, below the horizon");
+
+    scene::Scene s = loaded->scene;
+    const auto edits = io::read_edit_text(R"({"set": {"environment.sky": "2024-06-21T14:30,38.7,-9.1"}})", s, "script");
+    ASSERT_TRUE(edits) << edits.error().text();
+    scene::apply_unchecked(*edits, s);
+    EXPECT_NE(s.environment->panorama->content(), loaded->scene.environment->panorama->content());
+}
+
 TEST_F(PanoramaFile, IsReadWithItsScene) {
     write("sky.exr", 4, 2, rgb, ramp(24));
     std::ofstream(folder_ / "scene.json") << R"({"environment": {"image": "sky.exr", "rotation": 90, "intensity": 2}, "objects": {"ball": {"shape": {"sphere": {}}}}})";

@@ -66,6 +66,7 @@ public:
         if (chance(0.7)) {
             fill(s.environment.emplace());
             s.environment->image.clear();  // a file of that name would have to be there
+            if (!s.environment->sky.empty()) s.environment->sky = "160,40.5,3";
         }
         for (int i = number(4); i-- > 0;) {
             s.lights.emplace_back();
@@ -123,6 +124,7 @@ private:
             case FieldType::number:
             case FieldType::angle: f.set(owner, FieldValue{inside(f.info)}); break;
             case FieldType::text: f.set(owner, FieldValue{name()}); break;
+            case FieldType::names: f.set(owner, FieldValue{std::vector<std::string>{name(), name()}}); break;
             case FieldType::vector:
             case FieldType::color: f.set(owner, FieldValue{std::array<double, 3>{inside(f.info), inside(f.info), inside(f.info)}}); break;
             }

@@ -51,6 +51,8 @@ public:
                 scene::Environment e = s.environment.value_or(scene::Environment{});
                 e.horizon = color(), e.backdrop = random_.chance(0.5), e.backdrop_top = color();
                 if (random_.chance(0.3)) e.strength = random_.uniform(0, 1);
+                if (random_.chance(0.2)) e.directions = static_cast<int>(random_.below(5));
+                if (random_.chance(0.3)) e.transparent = !e.transparent;
                 return scene::SetEnvironment{e};
             }
             case 11: return settings(s);
@@ -113,6 +115,7 @@ private:
                 PhysicalMaterial m;
                 m.base_color = color(), m.metallic = random_.chance(0.5), m.roughness = random_.uniform(0, 1), m.opacity = random_.chance(0.3) ? 0.5 : 1;
                 if (random_.chance(0.3)) m.k = {3, 2, 2}, m.eta = color();
+                if (random_.chance(0.2)) m.catcher = true;
                 if (random_.chance(0.3)) m.clearcoat = 0.8, m.clearcoat_roughness = random_.uniform(0, 0.5);
                 return {"", m};
             }
@@ -132,6 +135,7 @@ private:
             auto& p = std::get<PhysicalMaterial>(value.model);
             p.base_color = color();
             if (random_.chance(0.2)) p.emissive = color();
+            if (random_.chance(0.3)) p.catcher = !p.catcher;
             if (random_.chance(0.3)) p.double_sided = !p.double_sided;
         }
         if (random_.chance(0.15)) value.textures = any_textures(value);
@@ -141,16 +145,25 @@ private:
         if (s.lights.empty()) return scene::InsertLight{0, {}};
         const auto i = static_cast<std::uint32_t>(random_.below(s.lights.size()));
         scene::Light l = s.lights[i];
-        switch (random_.below(7)) {
+        switch (random_.below(9)) {
             case 0: l.position = l.position + random_.in_cube(1); break;
             case 1: l.color = random_.chance(0.2) ? Rgb{} : color(); break;
             case 2: l.outer_angle = random_.uniform(0.3, math::pi), l.inner_angle = l.outer_angle * random_.uniform(0, 1), l.direction = random_.direction(); break;
             case 3: l.shadows = !l.shadows; break;
             case 5: l.kind = static_cast<scene::LightKind>(random_.below(5)), l.visible = random_.chance(0.7), l.group = random_.chance(0.3) ? "some" : ""; break;
-            case 4: l.intensity = random_.uniform(0, 5), l.radius = random_.chance(0.5) ? 0.5 : 0.2; break;
+            case 6: l.only = any_names(s); break;
+            case 7: l.except = any_names(s); break;
+            case 4: l.intensity = random_.uniform(0, 5), l.radius = random_.chance(0.5) ? 0.5 : 0.2, l.points = 1 + static_cast<int>(random_.below(4)); break;
             default: l.highlights = !l.highlights, l.range = random_.chance(0.5) ? 0 : random_.uniform(2, 9); break;
         }
         return scene::SetLight{i, l};
+    }
+    std::vector<std::string> any_names(const Scene& s) {
+        std::vector<std::string> names;
+        for (const scene::Node& node : s.nodes) {
+            if (!node.name.empty() && random_.chance(0.4)) names.push_back(node.name);
+        }
+        return names;
     }
     Edit moved(const Scene& s) {
         scene::SetNode e = any_node(s);
@@ -160,6 +173,7 @@ private:
             return e;
         }
         e.value.transform = at(random_.in_cube(0.5)) * e.value.transform;
+        if (random_.chance(0.1)) e.value.name = "n" + std::to_string(random_.below(4));
         if (random_.chance(0.3)) e.value.transform = e.value.transform * Affine::rotation(random_.direction(), random_.uniform(0, 3));
         return e;
     }
@@ -209,6 +223,8 @@ Scene start(std::uint64_t seed) {
     if (seed % 7 == 3) scene.settings.keep = false;
     if (seed % 4 == 2) scene.settings.level = static_cast<scene::Level>(random.below(4));
     if (seed % 4 == 3) scene.settings.level = random.chance(0.5) ? scene::Level::soft : scene::Level::indirect;
+    scene.settings.denoise = random.chance(0.5) ? scene::Denoise::off : scene::Denoise::filter;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) scene.nodes[i].name = "n" + std::to_string(i % 4);  // some share a name
     scene.settings.samples = 1 + static_cast<int>(random.below(40)), scene.settings.noise = random.uniform(0.02, 0.5);
     for (scene::Material& m : scene.materials) {  // bodies that absorb begin anew at most edits: not in every script
         if (auto* classic = std::get_if<ClassicMaterial>(&m.model); classic && seed % 6 != 0) classic->attenuation = {};
@@ -245,7 +261,9 @@ std::string play(const Script& script, bool tell = false) {
         session.picture(random.chance(0.3));  // whole and safe at any moment
         if (random.chance(0.5)) {
             session.refresh(frame);
-            if (const auto same = same_picture(session.picture(), frame.image); !same) return told + "refreshed: " + same.message();
+            // Between an edit and the next advance() what is filtered stays in a frame as it was, while a picture begins with the noise.
+            const auto same = same_picture(session.picture(), frame.image);
+            if (session.scene().settings.denoise == scene::Denoise::off && !same) return told + "refreshed: " + same.message();
         }
         if (random.chance(0.3)) session.look_at({static_cast<int>(random.below(40)), static_cast<int>(random.below(30)), static_cast<int>(random.below(20)), 5});
         if ((script.seed + static_cast<std::uint64_t>(step)) % 3 == 0) {

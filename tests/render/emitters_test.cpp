@@ -32,7 +32,7 @@ std::array<double, 3> three(Random& random) { return {random.uniform(), random.u
 // The lights' density of a direction, of all lights on the ray.
 double density(const Emitters& e, Vec3 from, Vec3 direction) {
     std::vector<Emitted> met;
-    e.lights_on({from, direction}, from, met);
+    e.lights_on({from, direction}, from, no_instance, [&](const Emitted& light) { met.push_back(light); });
     double sum = 0;
     for (const Emitted& one : met) sum += one.pdf;
     return sum;
@@ -142,12 +142,12 @@ TEST(Emitters, RaysMeetWhatWasSampled) {
         if (!sample) continue;
         EXPECT_NEAR(length(sample->direction), 1, 1e-12);
         met.clear();
-        e.lights_on({from, sample->direction}, from, met);
+        e.lights_on({from, sample->direction}, from, no_instance, [&](const Emitted& light) { met.push_back(light); });
         const auto one = std::find_if(met.begin(), met.end(), [&](const Emitted& m) { return m.group == group; });
         if (one == met.end()) {  // at the very edge
             met.clear();
             const Vec3 center = s.build.scene.lights[group].position - from;
-            e.lights_on({from, normalize(normalize(sample->direction) * (1 - 1e-9) + normalize(center) * 1e-9)}, from, met);
+            e.lights_on({from, normalize(normalize(sample->direction) * (1 - 1e-9) + normalize(center) * 1e-9)}, from, no_instance, [&](const Emitted& light) { met.push_back(light); });
             EXPECT_FALSE(met.empty());
             continue;
         }
@@ -169,11 +169,11 @@ TEST(Emitters, LightsShineToTheFrontOnly) {
         EXPECT_FALSE(e.sample(group, {3, 0, 0}, {0.3, 0.6, 0.5})) << "in its plane";
     }
     std::vector<Emitted> met;
-    e.lights_on({{0.1, 1, 0.1}, {0, -1, 0}}, {0.1, 1, 0.1}, met);
+    e.lights_on({{0.1, 1, 0.1}, {0, -1, 0}}, {0.1, 1, 0.1}, no_instance, [&](const Emitted& light) { met.push_back(light); });
     EXPECT_TRUE(met.empty());
-    e.lights_on({{0.1, -1, 0.1}, {0, 1, 0}}, {0.1, -1, 0.1}, met);
+    e.lights_on({{0.1, -1, 0.1}, {0, 1, 0}}, {0.1, -1, 0.1}, no_instance, [&](const Emitted& light) { met.push_back(light); });
     EXPECT_EQ(met.size(), 2u);
-    e.lights_on({{0.1, -1, 0.1}, {0, 1, 0}, 0, 0.9}, {0.1, -1, 0.1}, met);
+    e.lights_on({{0.1, -1, 0.1}, {0, 1, 0}, 0, 0.9}, {0.1, -1, 0.1}, no_instance, [&](const Emitted& light) { met.push_back(light); });
     EXPECT_EQ(met.size(), 2u) << "out of the ray's bounds";
 }
 
@@ -249,7 +249,7 @@ TEST(Irradiance, FromAfarIsThatOfTheCenter) {
         l.intensity = 1e4;
         const Emitters e = s.emitters();
         const Incident center = s.world->lights[0].at({});
-        EXPECT_TRUE(s.world->lights[0].has_extent());
+        EXPECT_TRUE(s.world->lights[0].is_sampled());
         const double expected = center.strength.r * dot(center.to_light, {0, 1, 0});
         EXPECT_NEAR(irradiance(e, 0, {}, {0, 1, 0}).r, expected, 2e-4 * expected);
     }

@@ -199,7 +199,7 @@ TEST(Diffuse, AlbedoIsTheShareThatComesBack) {
 }
 
 TEST(EnvironmentLight, IrradianceIsTheIntegralOfRadiance) {
-    const Environment e(scene::Environment{{0.9f, 0.3f, 0.5f}, {0.2f, 0.6f, 0.4f}, {0.1f, 0.05f, 0.7f}, false, {}, {}, 1, {}, {}});
+    const Environment e(scene::Environment{{0.9f, 0.3f, 0.5f}, {0.2f, 0.6f, 0.4f}, {0.1f, 0.05f, 0.7f}, false, {}, {}, false, 1, 0, {}, {}, {}});
     Random random(5);
     std::vector<Vec3> normals{{0, 1, 0}, {0, -1, 0}, {1, 0, 0}};
     for (int i = 0; i < 5; ++i) normals.push_back(random.direction());

@@ -96,6 +96,17 @@ TEST(OnePicture, EveryLevel) {
     }
 }
 
+// Light with extent, samples that do not suffice, and what is shown of them.
+TEST(OnePicture, Samples) {
+    scene::Scene scene = still_life();
+    scene.settings.width = 45, scene.settings.height = 34, scene.settings.tile = 20, scene.settings.supersampling = 1;
+    scene.settings.level = scene::Level::indirect, scene.settings.samples = 5;
+    scene::Light lamp;
+    lamp.kind = scene::LightKind::rectangle, lamp.position = {-2, 4, 3}, lamp.direction = {0.4, -1, -0.5}, lamp.intensity = 15;
+    scene.lights.push_back(lamp);
+    expect_one_picture(scene);
+}
+
 class OnePictureOfFile : public ::testing::TestWithParam<const char*> {};
 TEST_P(OnePictureOfFile, Same) {
     if (!std::filesystem::exists(spd_file(GetParam()))) GTEST_SKIP() << spd_file(GetParam()) << " is not here";

@@ -20,7 +20,7 @@ Scene sampled(Scene scene, scene::Level level, int samples) {
     scene.settings.level = level;
     scene.settings.width = scene.settings.height = 16;
     scene.settings.supersampling = 0;
-    scene.settings.samples = samples, scene.settings.noise = 0.0001;
+    scene.settings.samples = samples, scene.settings.noise = 0.0001, scene.settings.denoise = scene::Denoise::off;
     return scene;
 }
 
@@ -91,6 +91,18 @@ TEST(Sampled, EmissiveObjectIsALight) {
         const Mean mean = mean_of(picture_of(sampled(b.scene, level, 64)));
         EXPECT_NEAR(mean.value, expected, 4 * mean.deviation + 2e-3 * expected);
     }
+}
+
+// A thin shining sphere, half of which is holes: both its sides are seen from outside, so that it sends as much as a closed one of the same brightness times 1 - 1 / 4.
+TEST(Sampled, BothSidesOfAnEmissiveSphere) {
+    constexpr double albedo = 0.6, radius = 0.5, height = 2;
+    Build b = floor_scene(lambert(albedo));
+    PhysicalMaterial veil = lambert(0);
+    veil.emissive = gray(4), veil.opacity = 0.5;
+    b.place(sphere(radius), b.material(veil), at({0, height, 0}));
+    const double expected = albedo * 4 * 0.75 * radius * radius / (height * height);
+    const Mean mean = mean_of(picture_of(sampled(b.scene, scene::Level::indirect, 256)));
+    EXPECT_NEAR(mean.value, expected, 4 * mean.deviation + 4e-3 * expected);
 }
 
 // In a box whose walls shine with e and reflect a share a, every point sees e / (1 - a).

@@ -212,7 +212,7 @@ inline scene::Scene still_life() {
     lamp.position = {-4, 3, 3}, lamp.falloff = scene::Falloff::classic, lamp.linear = 0.2, lamp.quadratic = 0.05, lamp.color = {1, 0.8f, 0.6f};
     scene::Light& sun = s.light();
     sun.kind = scene::LightKind::directional, sun.direction = {0.5, -1, -0.3}, sun.intensity = 0.4;
-    s.scene.environment = scene::Environment{{0.2f, 0.3f, 0.6f}, {0.5f, 0.5f, 0.5f}, {0.1f, 0.1f, 0.1f}, true, {0.1f, 0.1f, 0.2f}, {0.3f, 0.3f, 0.4f}, 0.5, {}, {}};
+    s.scene.environment = scene::Environment{{0.2f, 0.3f, 0.6f}, {0.5f, 0.5f, 0.5f}, {0.1f, 0.1f, 0.1f}, true, {0.1f, 0.1f, 0.2f}, {0.3f, 0.3f, 0.4f}, false, 0.5, 0, {}, {}, {}};
     return s.scene;
 }
 

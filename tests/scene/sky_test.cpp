@@ -59,19 +59,19 @@ TEST(Sky, IsBlueAwayFromTheSunAndBrightestAtIt) {
     EXPECT_TRUE(is_black(sky_radiance({{0, -0.1}, 3}, {0, 1, 0})));
 }
 
-TEST(Sky, LightsASceneWithTheSunAsItsOwnLight) {
-    Scene scene;
+TEST(Sky, TheSunIsALightOfItsOwn) {
     const Daylight day{{120 * degree, 35 * degree}, 3};
-    add_daylight(scene, day, {1, 2, 3}, 0.5);
-    ASSERT_EQ(scene.lights.size(), 1u);
-    const Light& sun = scene.lights[0];
+    const Light sun = sun_of(day, {1, 2, 3}, 0.5, 0);
     EXPECT_LT(length(normalize(sun.position - Vec3{1, 2, 3}) - direction_to(day.sun)), 1e-12);
     const double distance = length(sun.position - Vec3{1, 2, 3});
     EXPECT_NEAR(2 * std::asin(sun.radius / distance) / degree, 0.53, 1e-9);
     const Rgb irradiance = sun.color * static_cast<float>(sun.intensity / (distance * distance)), expected = sun_irradiance(day);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(irradiance[k], expected[k], 1e-5);
-    ASSERT_TRUE(scene.environment && scene.environment->panorama && scene.environment->lights());
-    const Panorama& around = *scene.environment->panorama;
+    Environment environment;
+    environment.sky = "120,35";
+    ASSERT_TRUE(make_sky(environment));
+    ASSERT_TRUE(environment.panorama && environment.lights());
+    const Panorama& around = *environment.panorama;
     const Vec3 up = normalize(Vec3{-0.5, 0.8, 0.1});
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(around.radiance(up)[k], sky_radiance(day, up)[k], 0.01);
     EXPECT_LT(luminance(around.radiance({0, -1, 0})), luminance(around.radiance({0, 1, 0})) * 2);
@@ -79,6 +79,26 @@ TEST(Sky, LightsASceneWithTheSunAsItsOwnLight) {
     const double total = (luminance(around.irradiance({0, 1, 0})) * pi + luminance(expected) * std::sin(35 * degree)) / daylight_unit;
     EXPECT_GT(total, 5e4);
     EXPECT_LT(total, 1e5);
+    // A quarter turn counter-clockwise seen from above takes east to north.
+    const Light turned = sun_of({{90 * degree, 30 * degree}, 3}, {}, 1, 90 * degree);
+    EXPECT_LT(length(normalize(turned.position) - direction_to({0, 30 * degree})), 1e-12);
+}
+
+TEST(Sky, IsSaidByAnglesOrByTimeAndPlace) {
+    const auto angles = daylight_of("160,40");
+    ASSERT_TRUE(angles);
+    EXPECT_NEAR(angles->sun.azimuth, 160 * degree, 1e-12);
+    EXPECT_EQ(angles->turbidity, 3);
+    const auto moment = daylight_of("2024-06-21T12:37:00Z,38.7,-9.1,2.5");
+    ASSERT_TRUE(moment);
+    EXPECT_NEAR(moment->sun.elevation / degree, 74.7, 0.3);  // about noon at midsummer in Lisbon: 90 - 38.7 + 23.4
+    EXPECT_EQ(moment->turbidity, 2.5);
+    for (const char* wrong : {"", "1", "1,2,3,4", "1,x", "160,-5", "400,10", "10,95", "10,20,11", "2024-02-30T12:00,38,-9", "2024-06-21T25:00,38,-9", "2024-06-21T12:00,95,0", "2024-06-21T00:00,38.7,-9.1",
+                              "10,nan", "10,20,", "2024-06-21T12:00"}) {
+        const auto done = daylight_of(wrong);
+        ASSERT_FALSE(done) << wrong;
+        EXPECT_FALSE(done.error().problems.front().reason.empty());
+    }
 }
 
 }  // namespace

@@ -91,3 +91,22 @@ TEST(Display, NeutralAsSpecified) {
 TEST(Display, ExposureIsInStops) {
     EXPECT_EQ(scene::display({0.1f, 0.2f, 0.3f}, Tonemap::srgb, 1), scene::display({0.2f, 0.4f, 0.6f}, Tonemap::srgb, 0));
 }
+
+TEST(AutomaticExposure, MakesTheLogAverageMiddleGrey) {
+    const std::vector<float> even(12, 0.36f);
+    EXPECT_DOUBLE_EQ(scene::automatic_exposure(even, 3), -1);
+    const std::vector<float> two{0.045f, 0.045f, 0.045f, 0.72f, 0.72f, 0.72f};  // two stops below and above
+    EXPECT_DOUBLE_EQ(scene::automatic_exposure(two, 3), 0);
+    // What is transparent does not count, nor what is black or no number; alpha is multiplied in.
+    const std::vector<float> apart{0.18f, 0.18f, 0.18f, 0.5f, 0, 0, 0, 0, infinity, 1, 1, 1};
+    EXPECT_DOUBLE_EQ(scene::automatic_exposure(apart, 4), -1);
+    EXPECT_EQ(scene::automatic_exposure(std::vector<float>(9, 0.0f), 3), 0);
+    // A tenth of bright pixels before much dark: they are kept from burning out.
+    std::vector<float> dark(3 * 90, 0.01f);
+    dark.resize(3 * 100, 8.0f);
+    EXPECT_DOUBLE_EQ(scene::automatic_exposure(dark, 3), -3);
+    // Fewer may.
+    std::fill_n(dark.begin() + 3 * 90, 3 * 7, 0.01f);
+    EXPECT_GT(scene::automatic_exposure(dark, 3), 2);
+    EXPECT_EQ(scene::automatic_exposure({}, 3), 0);
+}

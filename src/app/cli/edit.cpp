@@ -54,7 +54,7 @@ Expected<std::vector<io::ScriptLine>> read_script(const std::string& file) {
 Expected<void> write_pictures(const render::Session& session, const std::vector<std::string>& outputs, const PictureOptions& options, const Invocation& invocation) {
     if (outputs.empty()) return {};
     const scene::Image picture = session.picture(needs_all_layers(outputs));
-    io::ImageOptions image = image_options(options, session.scene());
+    io::ImageOptions image = image_options(options, session.scene(), picture);
     image.metadata = {{"Software", std::string("Crescente ") + CRESCENTE_VERSION}, {"Command", invocation.command_line}};
     for (const std::string& output : outputs) {
         if (auto written = io::write_image(picture, output, image); !written) return written;
@@ -99,6 +99,7 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     }();
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
+    if (const auto writable = check_alpha(options.picture.outputs, loaded->scene); !writable) return fail(writable.error());
     const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
 

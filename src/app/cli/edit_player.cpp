@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 
+#include "app/cli/report.h"
 #include "io/edit_text.h"
 
 namespace crescente::app {
@@ -32,7 +33,9 @@ std::string line_text(std::uint32_t number) { return "line " + std::to_string(nu
 using Reports = std::vector<render::EditReport>;
 
 Expected<Reports> make_edit(const io::ScriptLine& line, const io::Json& json, const std::string& script, render::Session& session, render::History& history) {
-    auto edits = io::read_edit(json, session.scene(), script);
+    Problems warnings;
+    auto edits = io::read_edit(json, session.scene(), script, &warnings);
+    warn(warnings);
     if (!edits) return tl::unexpected(std::move(edits.error()));
     auto report = history.edit(session, std::move(*edits), script);
     if (!report) {

@@ -10,26 +10,18 @@
 namespace crescente::app {
 namespace {
 
-bool emits(const scene::Material& material) {
-    if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return !math::is_black(classic->emission);
-    return !math::is_black(std::get<scene::PhysicalMaterial>(material.model).emissive);
-}
-
-// Whether something in the scene lights it.
-bool lit(const scene::Scene& scene) {
-    if (!scene.lights.empty() || (scene.environment && scene.environment->lights())) return true;
-    return std::any_of(scene.materials.begin(), scene.materials.end(), emits);
-}
-
-Expected<void> apply_overrides(const std::vector<std::string>& overrides, scene::Scene& scene) {
+// Returns warnings.
+Expected<Problems> apply_overrides(const std::vector<std::string>& overrides, scene::Scene& scene) {
     Error wrong{ErrorKind::usage, {}};
+    Problems warnings;
     for (const std::string& text : overrides) {
-        if (const auto applied = io::apply_override(scene, text); !applied) {
-            wrong.problems.insert(wrong.problems.end(), applied.error().problems.begin(), applied.error().problems.end());
-        }
+        const auto applied = io::apply_override(scene, text);
+        Problems& told = applied ? warnings : wrong.problems;
+        const Problems& more = applied ? *applied : applied.error().problems;
+        told.insert(told.end(), more.begin(), more.end());
     }
     if (!wrong.problems.empty()) return tl::unexpected<Error>(std::move(wrong));
-    return {};
+    return warnings;
 }
 
 // Each option is in range by itself: what is wrong with the settings as a whole (a picture of too many pixels) comes of their combination.
@@ -43,25 +35,26 @@ Expected<void> check_extent(const SceneRequest& request, const scene::Scene& sce
     return failure(ErrorKind::input, {request.file, "", reason, ""});
 }
 
-// Daylight, if it is asked for; camera, lights and ground for what has none.
+// Camera, lights, ground and backdrop, as asked for or for what has none.
 Expected<void> furnish(const SceneRequest& request, scene::Scene& scene) {
-    if (request.daylight) {
-        if (const auto fits = check_extent(request, scene); !fits) return fits;
-        const auto box = scene::bounds(scene);
-        scene::add_daylight(scene, *request.daylight, box.center(), std::max(length(box.diagonal()) / 2, 1e-9));
-    }
     if (const auto placed = place_camera(request.view, scene); !placed) return placed;
-    if (!scene.camera || request.asked_studio || (request.studio && !lit(scene))) {
+    const bool lights = request.asked_studio || (request.studio && !scene::shines(scene));
+    if (!scene.camera || lights || request.ground) {
         if (const auto fits = check_extent(request, scene); !fits) return fits;
-        if (request.studio) {
-            scene::add_studio(scene, request.asked_studio);
-        } else {
-            scene::Scene framed = scene;  // the camera of the studio without its lights
-            scene::add_studio(framed);
-            scene.camera = framed.camera;
-        }
+        if (!scene.camera) scene::add_camera(scene);
+        const scene::Placement at(scene);  // of the model alone: the ground is much larger
+        if (lights) scene::add_studio_lights(scene, at, request.asked_studio.value_or(scene::Studio::standard));
+        if (lights || request.ground) scene::add_ground(scene, at, request.ground.value_or(scene::Ground::studio));
     }
     set_projection(request.view, *scene.camera);
+    if (request.background) {
+        if (!scene.environment) scene.environment.emplace();
+        scene.environment->transparent = !request.background->color;
+        if (request.background->color) {
+            scene.environment->backdrop = true;
+            scene.environment->backdrop_bottom = scene.environment->backdrop_top = *request.background->color;
+        }
+    }
     return {};
 }
 
@@ -82,14 +75,18 @@ Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& op
     scene::Scene& scene = loaded->scene;
 
     for (const auto& [field, value] : request.settings) field->set(scene.settings, value);
-    if (request.environment) {
+    if (request.environment || request.sky) {
         if (!scene.environment) scene.environment.emplace();
-        scene.environment->image = *request.environment;
+        if (request.sky) scene.environment->rotation = 0, scene.environment->intensity = 1;
+        scene.environment->image = request.environment.value_or("");
+        scene.environment->sky = request.sky.value_or("");
         auto warnings = io::load_panorama(*scene.environment, {});
         if (!warnings) return tl::unexpected<Error>(std::move(warnings.error()));
         loaded->warnings.insert(loaded->warnings.end(), warnings->begin(), warnings->end());
     }
-    if (const auto applied = apply_overrides(request.overrides, scene); !applied) return tl::unexpected<Error>(applied.error());
+    const auto applied = apply_overrides(request.overrides, scene);
+    if (!applied) return tl::unexpected<Error>(applied.error());
+    loaded->warnings.insert(loaded->warnings.end(), applied->begin(), applied->end());
 
     if (auto problems = scene::validate(scene, request.file); !problems.empty()) {
         const bool from_options = !request.settings.empty() && std::all_of(problems.begin(), problems.end(), concerns_settings_together);

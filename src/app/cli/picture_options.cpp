@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "scene/hierarchy.h"
+#include "scene/tonemap.h"
 
 namespace crescente::app {
 namespace {
@@ -27,7 +28,8 @@ void add_picture_options(CLI::App& command, PictureOptions& options, bool requir
         ->option_text("FILE")->required(required)->expected(1)->take_all();
     command.add_option("--tonemap", options.tonemap, "Display colours: auto, srgb or neutral (Khronos PBR Neutral)")
         ->option_text("NAME")->check(CLI::IsMember({"auto", "srgb", "neutral"}));
-    command.add_option("--exposure", options.exposure, "Brightness of the picture in stops")->option_text("STOPS")->check(CLI::Range(-32.0, 32.0));
+    command.add_option("--exposure", options.exposure, "Brightness of the picture in stops; auto: its log-average becomes middle grey, little burns out")->option_text("STOPS|auto")
+        ->check(CLI::Range(-32.0, 32.0) | CLI::IsMember({"auto"}));
     command.add_option("--bits", options.bits, "Bits of a channel in PNG and TIFF")->option_text("8|16")->check(CLI::IsMember({8, 16}));
 }
 
@@ -49,16 +51,29 @@ bool needs_all_layers(const std::vector<std::string>& outputs) {
     });
 }
 
-io::ImageOptions image_options(const PictureOptions& options, const scene::Scene& scene) {
+io::ImageOptions image_options(const PictureOptions& options, const scene::Scene& scene, const scene::Image& picture) {
     io::ImageOptions image;
     image.tonemap = scene.settings.tonemap;
     if (options.tonemap == "srgb") image.tonemap = scene::Tonemap::srgb;
     if (options.tonemap == "neutral") image.tonemap = scene::Tonemap::neutral;
     if (options.tonemap == "auto") image.tonemap = scene::Tonemap::automatic;
     if (image.tonemap == scene::Tonemap::automatic) image.tonemap = automatic_tonemap(scene);
-    image.exposure = options.exposure.value_or(scene.settings.exposure);
+    const bool by_number = options.exposure && *options.exposure != "auto";
+    image.exposure = by_number ? std::stod(*options.exposure) : scene.settings.exposure;
+    if (!by_number && (options.exposure || scene.settings.auto_exposure)) {
+        const scene::Layer& color = picture.layers.front();
+        image.exposure += scene::automatic_exposure(color.values, color.channels.size());
+    }
     image.bits = options.bits;
     return image;
+}
+
+Expected<void> check_alpha(const std::vector<std::string>& outputs, const scene::Scene& scene) {
+    OutputCheck all;
+    if (scene.environment && scene.environment->transparent) {
+        for (const std::string& output : outputs) all.add(io::can_write(output, true));
+    }
+    return all.result();
 }
 
 }  // namespace crescente::app

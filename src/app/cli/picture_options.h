@@ -16,7 +16,7 @@ namespace crescente::app {
 struct PictureOptions {
     std::vector<std::string> outputs;
     std::string tonemap;  // empty: as the scene's settings say
-    std::optional<double> exposure;
+    std::optional<std::string> exposure;  // stops, or "auto"
     int bits = 8;
 };
 
@@ -37,6 +37,9 @@ private:
 bool needs_all_layers(const std::vector<std::string>& outputs);
 
 // How pictures of the scene are written.
-io::ImageOptions image_options(const PictureOptions& options, const scene::Scene& scene);
+io::ImageOptions image_options(const PictureOptions& options, const scene::Scene& scene, const scene::Image& picture);
+
+// Every output that cannot keep the alpha channel that the scene's background asks for.
+Expected<void> check_alpha(const std::vector<std::string>& outputs, const scene::Scene& scene);
 
 }  // namespace crescente::app

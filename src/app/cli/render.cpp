@@ -184,6 +184,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     }();
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
+    if (const auto writable = check_alpha(options.picture.outputs, loaded->scene); !writable) return fail(writable.error());
     const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
     times.load = seconds_since(start);
@@ -195,7 +196,8 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (settings.order == scene::Order::automatic && !request->time) {
         // Nobody watches, and nobody comes back to the rays: the fastest way to the finished picture.
         loaded->scene.settings.order = scene::Order::tiles;
-        loaded->scene.settings.keep = settings.keep && (request->replay || request->pick || needs_all_layers(options.picture.outputs));
+        const bool denoises = settings.level > scene::Level::edges && settings.denoise != scene::Denoise::off;
+        loaded->scene.settings.keep = settings.keep && (request->replay || request->pick || denoises || needs_all_layers(options.picture.outputs));
     }
     auto session = render::Session::open(std::move(loaded->scene));
     if (!session) return fail(session.error());
@@ -232,7 +234,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     if (!options.picture.outputs.empty()) {
         const auto write_start = Clock::now();
         const scene::Image picture = session->picture(needs_all_layers(options.picture.outputs));
-        io::ImageOptions image = image_options(options.picture, session->scene());
+        io::ImageOptions image = image_options(options.picture, session->scene(), picture);
         image.metadata = {{"Software", std::string("Crescente ") + CRESCENTE_VERSION},
                           {"Command", invocation.command_line},
                           {"SceneHash", "xxh64:" + *hash},

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "app/cli/quantities.h"
-#include "app/cli/sky_option.h"
 #include "base/spelling.h"
+#include "io/json_fields.h"
+#include "scene/sky.h"
 
 namespace crescente::app {
 namespace {
@@ -23,6 +24,7 @@ constexpr SettingOption setting_options[] = {
     {"--depth", "depth", "N", "Most bounces of a ray"},
     {"--noise", "noise", "X", "Levels soft and indirect: error, relative to the brightness, down to which light is sampled"},
     {"--samples", "samples", "N", "Levels soft and indirect: most samples of a point"},
+    {"--denoise", "denoise", "HOW", "Levels soft and indirect: off or filter, for what has fewer samples than it wants"},
     {"--threshold", "threshold", "X", "Rays of less influence on their pixel are not followed, 0 to 1"},
     {"--contrast", "contrast", "X", "Difference of corners that splits a pixel, 0 to 1"},
     {"--accel", "accelerator", "NAME", "How rays find objects: embree, kay-kajiya or linear"},
@@ -133,6 +135,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
         ->option_text("PATH=VALUE")->expected(1)->take_all();
     command.add_option("--studio", options.studio, "Lights and ground that fit the model, whatever light it has: " + studio_list())->option_text("NAME");
+    command.add_option("--ground", options.ground, "What the model stands on: studio, catch (only shadows and reflections are seen) or none")
+        ->check(CLI::IsMember({"studio", "catch", "none"}))->option_text("NAME");
+    command.add_option("--background", options.background, "Behind everything: transparent (PNG, TIFF and EXR keep an alpha channel) or a colour, #rrggbb")->option_text("WHAT");
     command.add_flag("--no-studio", options.no_studio, "Add no lights and ground to a bare model");
     command.add_flag("--no-cache", options.no_cache, "Read a CAD file anew, and keep nothing of it");
     command.add_option("--missing-textures", options.missing_textures, "What to do where a texture's picture is missing or damaged: error, or show a pattern")
@@ -158,7 +163,11 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
         if (const auto bytes = parse_bytes("--memory", *options.memory); reader.keep(bytes)) reader.set_integer("--memory", "memory", *bytes);
     }
     if (options.sky) {
-        if (const auto daylight = parse_sky("--sky", *options.sky); reader.keep(daylight)) reader.request.daylight = *daylight;
+        if (auto daylight = scene::daylight_of(*options.sky)) {
+            reader.request.sky = options.sky;
+        } else {
+            for (Problem& problem : daylight.error().problems) reader.problems.push_back({"", "--sky", std::move(problem.reason), std::move(problem.hint)});
+        }
         if (options.environment) reader.problems.push_back({"", "--sky", "and --environment cannot be together", ""});
     }
     if (options.studio) {
@@ -170,6 +179,16 @@ Expected<SceneRequest> understand(const SceneOptions& options) {
             reader.problems.push_back({"", "--studio", "there is no studio '" + *options.studio + "'", spelling_hint(*options.studio, known)});
         }
         if (options.no_studio) reader.problems.push_back({"", "--studio", "and --no-studio cannot be together", ""});
+    }
+    if (options.ground == "studio") reader.request.ground = scene::Ground::studio;
+    if (options.ground == "catch") reader.request.ground = scene::Ground::catcher;
+    if (options.ground == "none") reader.request.ground = scene::Ground::none;
+    if (options.background) {
+        reader.request.background.emplace();
+        if (*options.background != "transparent") {
+            reader.request.background->color = io::color_of_text(*options.background);
+            if (!reader.request.background->color) reader.problems.push_back({"", "--background", "'" + *options.background + "' is no background", "write transparent, or a colour such as #ffffff"});
+        }
     }
     if (auto view = parse_view(options.camera, options.field_of_view, options.orthographic); reader.keep(view)) {
         reader.request.view = std::move(*view);

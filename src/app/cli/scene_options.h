@@ -11,7 +11,6 @@
 #include "app/cli/lens_options.h"
 #include "app/cli/view.h"
 #include "base/error.h"
-#include "scene/sky.h"
 #include "scene/studio.h"
 
 namespace crescente::app {
@@ -25,7 +24,7 @@ struct SceneOptions {
     bool orthographic = false;
     LensOptions lens;
     std::vector<std::string> overrides;  // --set path=value
-    std::optional<std::string> studio;
+    std::optional<std::string> studio, ground, background;
     bool no_studio = false, no_cache = false, verbose = false;
     std::string missing_textures = "error";
 };
@@ -40,9 +39,14 @@ struct SceneRequest {
     View view;
     LensRequest lens;
     std::optional<std::string> environment;  // a picture's file
-    std::optional<scene::Daylight> daylight;
+    std::optional<std::string> sky;          // where the sun stands, as scene::daylight_of reads it
     std::vector<std::string> overrides;
     std::optional<scene::Studio> asked_studio;
+    std::optional<scene::Ground> ground;
+    struct Background {
+        std::optional<math::Rgb> color;  // none: transparent
+    };
+    std::optional<Background> background;
     bool studio = true, cache = true, verbose = false;
     bool texture_pattern = false;
 };
