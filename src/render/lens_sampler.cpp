@@ -106,7 +106,7 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
             Path path = paths_[block + i];
             const Ray& ray = rays_[block + i];
             const accel::Hit& hit = hits_[block + i];
-            see_lights(world, path, ray, hit.t, depth == 0);
+            see_lights(world, path, ray, hit.t);
             if (!hit.found()) {
                 see_surroundings(world, path, ray.direction, depth == 0);
                 continue;
@@ -117,7 +117,8 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
             const Lobes* lobes = textured ? &textured_.emplace_back(textured->lobes_at(place)) : &world.lobes[material];
             SamplePoint point;
             point.position = lane(at.position, i);
-            point.facing = {lane(at.shading, i), lane(at.geometric, i), {}, (at.inside >> i & 1) != 0};
+            point.facing = {lane(at.shading, i), lane(at.geometric, i), (at.inside >> i & 1) != 0};
+            point.instance = hit.instance;
             if (textured && textured->has_relief()) point.facing.shading = textured->normal_at(place, point.facing.shading);
             point.to_viewer = -ray.direction;
             point.offset = at.offset[i];
@@ -137,14 +138,12 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
 }
 
 // Lights with extent that the ray passes; the camera does not see all of them.
-void LensSampler::see_lights(const World& world, const Path& path, const Ray& ray, double distance, bool by_camera) {
+void LensSampler::see_lights(const World& world, const Path& path, const Ray& ray, double distance) {
     Ray way = ray;
     way.t_max = distance;
-    met_.clear();
-    world.emitters.lights_on(way, ray.origin, met_);
-    for (const Emitted& light : met_) {
-        if (light.visible || !by_camera) add(path.pixel, light.group, path.throughput * light.radiance);
-    }
+    world.emitters.lights_on(way, ray.origin, path.sender, [&](const Emitted& light) {
+        if (light.visible || path.sender != no_instance) add(path.pixel, light.group, path.throughput * light.radiance);
+    });
 }
 
 // A picture's intensity is a factor of what is seen, the strength of a gradient is not.
@@ -174,7 +173,7 @@ void LensSampler::go_on(const Lobes& lobes, const SamplePoint& point, Path path,
     if (!lobes.goes_on()) return;
     const Smooth smooth = smooth_lobes(lobes);
     const double cosine = std::clamp(dot(point.facing.shading, point.to_viewer), 0.0, 1.0);
-    const ChildWeights weights = smooth_weights(lobes, cosine, point.facing.inside);
+    const ChildWeights weights = smooth_weights(lobes, cosine, coat_cosine(lobes, point.to_viewer, cosine), point.facing.inside);
     const Rgb ways[3] = {smooth.reflects ? weights.reflected : Rgb{}, smooth.refracts ? weights.refracted : Rgb{}, lobes.straight};
     double sum = 0;
     for (const Rgb& weight : ways) sum += max_component(path.throughput * weight);
@@ -203,6 +202,8 @@ void LensSampler::go_on(const Lobes& lobes, const SamplePoint& point, Path path,
         default: ray.direction = -point.to_viewer; break;
     }
     ray.origin = point.position + point.facing.geometric * (dot(point.facing.geometric, ray.direction) >= 0 ? point.offset : -point.offset);
+    const bool straight = way == 2 || (way == 1 && lobes.ior == 1);
+    if (!straight) path.sender = point.instance;  // what goes straight through a surface was sent before it
     next_.push_back(path), next_rays_.push_back(ray);
 }
 

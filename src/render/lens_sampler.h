@@ -32,6 +32,7 @@ private:
         Rgb throughput{1, 1, 1};
         double length = 0;     // of the way to where the ray starts, m
         double height;         // in the picture, 0 bottom to 1 top
+        std::uint32_t sender = no_instance;  // whose surface sent the ray
     };
     struct Weight {  // of a point's light in a pixel
         std::uint32_t pixel;
@@ -40,7 +41,7 @@ private:
     int moment_of(const PixelSample& pixel) const;
     void start(std::span<const PixelSample> pixels, std::span<const std::uint32_t> chosen, int moment);
     void step(const World& world, std::span<const PixelSample> pixels, int depth);
-    void see_lights(const World& world, const Path& path, const geometry::Ray& ray, double distance, bool by_camera);
+    void see_lights(const World& world, const Path& path, const geometry::Ray& ray, double distance);
     void see_surroundings(const World& world, const Path& path, Vec3 direction, bool by_camera);
     void see_emission(const World& world, const Path& path, const geometry::Ray& ray, const accel::Hit& hit, std::uint32_t material, const Lobes& lobes, Vec3 position);
     void go_on(const Lobes& lobes, const SamplePoint& point, Path path, std::uint32_t index, int depth);
@@ -60,7 +61,6 @@ private:
     std::deque<Lobes> textured_;    // that points_ look at
     std::vector<SampledLight> point_light_;
     std::vector<std::unique_ptr<PathSampler>> samplers_;  // by moment, made when asked for
-    std::vector<Emitted> met_;
 };
 
 }  // namespace crescente::render

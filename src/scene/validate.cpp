@@ -63,6 +63,7 @@ private:
         }
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], "/lights/" + key_of(scene_.lights[i].name, i));
         check_light_groups();
+        if (const auto problem = lens_problem(scene_)) add("/camera" + problem->place, problem->reason);
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
