@@ -14,6 +14,8 @@ namespace {
 // The last round: what an edit made outdated, and has been shown nevertheless, is sampled anew, a few nodes at a time to the end.
 constexpr double renewal = 0;
 
+constexpr std::size_t most_looked_at = 16 * chunk_size;  // nodes, for those of a chunk: whoever interrupts does not wait for a search through all of them
+
 std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
     std::vector<Stage> stages;
     int before = 0;
@@ -48,12 +50,12 @@ public:
     bool run(const Deadline& deadline) {
         tile_.samples.resize(tile_.nodes.size());
         tile_.estimates.resize(tile_.nodes.size() * groups_);
-        find_unseen();
         while (tile_.cursor < tile_.nodes.size()) {
             std::size_t end = tile_.cursor;
-            for (; end < tile_.nodes.size() && chunk_.size() < chunk_size; ++end) {
+            const std::size_t furthest = std::min(tile_.nodes.size(), end + most_looked_at);
+            for (; end < furthest && chunk_.size() < chunk_size; ++end) {
                 const auto i = static_cast<std::uint32_t>(end);
-                if (unseen_[i] || tile_.nodes[i].left_scene()) continue;
+                if (tile_.nodes[i].left_scene() || is_unseen(i)) continue;
                 if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
                 forget_too_many(i);
                 if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i)) chunk_.push_back(i);
@@ -69,23 +71,18 @@ public:
     }
 
 private:
-    // Nodes that are no part of the picture: below what was hidden, and below rays that stand for lobes that are sampled.
-    void find_unseen() {
-        unseen_.assign(tile_.nodes.size(), 0);
-        for (std::uint32_t i = 0; i < tile_.nodes.size(); ++i) {
-            const Node& node = tile_.nodes[i];
-            if (node.parent == no_node) continue;
-            const Node& parent = tile_.nodes[node.parent];
-            const Smooth smooth = smooth_lobes_of(node.parent);
-            const bool stands_in = (parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts);
-            unseen_[i] = node.hidden || stands_in || unseen_[node.parent];
+    // Whether a node is no part of the picture: below what was hidden, or below rays that stand for lobes that are sampled.
+    bool is_unseen(std::uint32_t i) {
+        for (std::uint32_t above = tile_.nodes[i].parent; above != no_node; i = above, above = tile_.nodes[i].parent) {
+            if (tile_.nodes[i].hidden) return true;
+            const Node& parent = tile_.nodes[above];
+            const Smooth smooth = smooth_lobes_of(above);
+            if ((parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts)) return true;
         }
+        return false;
     }
 
-    Smooth smooth_lobes_of(std::uint32_t i) const {
-        Lobes scratch;
-        return smooth_lobes(lobes_of(world_, tile_, i, scratch));
-    }
+    Smooth smooth_lobes_of(std::uint32_t i) { return smooth_lobes(lobes_of(world_, tile_, i, scratch_)); }
 
     std::uint32_t goal(std::uint32_t i) const {
         if (tile_.nodes[i].outdated) return tile_.samples[i];
@@ -163,7 +160,7 @@ private:
     const bool renews_;
     const std::uint32_t most_, bound_;
     PathSampler sampler_;
-    std::vector<std::uint8_t> unseen_;  // by node
+    Lobes scratch_;  // of a textured material
     std::vector<std::uint32_t> chunk_, wanting_;
     std::vector<SamplePoint> chunk_points_, points_;
     std::vector<Lobes> chunk_lobes_;  // of textured materials
