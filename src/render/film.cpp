@@ -128,9 +128,9 @@ std::vector<float> develop_clear(const Tile& tile) {
     return tile.shows_pixels() ? tile.clear_pixels : developed<float>(tile, clearness, tile.clear_pixels);
 }
 
-void keep_picture(Tile& tile) {
+void keep_picture(Tile& tile, std::span<const Rgb> displayed) {
     std::vector<float> clear = develop_clear(tile);
-    tile.pixels = develop(tile);
+    tile.pixels = displayed.empty() ? develop(tile) : std::vector<Rgb>(displayed.begin(), displayed.end());
     tile.clear_pixels = std::move(clear);
 }
 

@@ -16,8 +16,8 @@ std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections = {}
 // The share of what is behind the scene that is seen in each pixel, in the same way; empty: none in any, or the picture does not keep it apart.
 std::vector<float> develop_clear(const Tile& tile);
 
-// Makes what the tile shows its `pixels`, and gives these up.
-void keep_picture(Tile& tile);
+// Makes what the tile shows its `pixels`, and gives these up. `displayed`: if not empty, the colours that were shown, which the filter had a share in.
+void keep_picture(Tile& tile, std::span<const Rgb> displayed = {});
 void forget_picture(Tile& tile);
 
 // The root that says best what a pixel of the tile shows: at its middle where it was split, else at a corner, or as near to it as there is one by now.

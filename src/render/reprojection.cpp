@@ -107,9 +107,10 @@ void fill_holes(Grid& grid, parallel::Pool& pool) {
 
 }  // namespace
 
-void take_points(const Tile& tile, bool backdrop, int width, std::span<SeenPoint> points) {
+void take_points(const Tile& tile, std::span<const Rgb> displayed, bool backdrop, int width, std::span<SeenPoint> points) {
     if (tile.corners.empty()) return;
-    const std::vector<Rgb> pixels = develop(tile);
+    const std::vector<Rgb> made = displayed.empty() ? develop(tile) : std::vector<Rgb>{};
+    const std::span<const Rgb> pixels = displayed.empty() ? made : displayed;
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
             const std::uint32_t root = tile.corner(x, y);

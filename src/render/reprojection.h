@@ -20,7 +20,7 @@ struct SeenPoint {
 };
 
 // The points of a tile, at their places in those of a picture of this width, row by row. backdrop: what is seen behind everything stays where it is.
-void take_points(const Tile& tile, bool backdrop, int width, std::span<SeenPoint> points);
+void take_points(const Tile& tile, std::span<const Rgb> displayed, bool backdrop, int width, std::span<SeenPoint> points);
 
 struct Reprojected {
     std::vector<Rgb> pixels;         // row by row, holes filled

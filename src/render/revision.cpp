@@ -24,8 +24,8 @@ constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
 class Reviser {
 public:
-    Reviser(Tile& tile, const World& before, const World& now, const Change& change, bool watched)
-        : tile_(tile), before_(before), now_(now), change_(change), watched_(watched) {}
+    Reviser(Tile& tile, const World& before, const World& now, const Change& change, bool watched, std::span<const Rgb> displayed)
+        : tile_(tile), before_(before), now_(now), change_(change), watched_(watched), displayed_(displayed) {}
 
     void run() {
         const std::size_t count = tile_.nodes.size();
@@ -39,7 +39,7 @@ public:
         const bool rays_may_end_elsewhere = !change_.same_geometry;
         if (rays_may_end_elsewhere || untidy || change_.sky) place_roots();
         if (rays_may_end_elsewhere || untidy) find_lost_rays();
-        if (lost_roots_) keep_picture(tile_);
+        if (lost_roots_) keep_picture(tile_, displayed_);
         if (lost_roots_ || outdated) tile_.pixels_stage = tile_.lit ? -1 : 0;
         if (change_.renumbered || change_.any_reassigned || change_.any_lobes || change_.all_lit || change_.depth || change_.sky) {
             update_nodes();
@@ -55,7 +55,7 @@ public:
         if (change_.stages) tile_.stage = std::min(tile_.stage, all_roots(now_.scene.settings));  // up to there all plans are the same
         if (tile_.pixels_stage > tile_.stage) tile_.pixels_stage = tile_.lit ? -1 : 0;  // of a longer plan, maybe
         touched_ = touched_ || outdated || lost_any_ || weights_changed_ || change_.frontier || change_.splitting || change_.stages;
-        if (watched_ && touched_ && !lost_roots_ && !tile_.unsettled) keep_picture(tile_);
+        if (watched_ && touched_ && !lost_roots_ && !tile_.unsettled) keep_picture(tile_, displayed_);
         if (touched_) tile_.previewed_until = 0;
         if (lost_any_) compact();
         if (rays_may_end_elsewhere || untidy) tile_.forgotten = 0;
@@ -68,7 +68,7 @@ private:
     void take_samples_back() {
         touched_ = tile_.resamples = true;
         if (estimate_groups(before_) == estimate_groups(now_)) return;
-        if (watched_ && !tile_.unsettled) keep_picture(tile_);
+        if (watched_ && !tile_.unsettled) keep_picture(tile_, displayed_);
         forget_samples(tile_);
     }
 
@@ -349,6 +349,7 @@ private:
     const World &before_, &now_;
     const Change& change_;
     const bool watched_;
+    const std::span<const Rgb> displayed_;
     std::vector<std::uint64_t> place_;  // by node: key of a root's point
     std::vector<std::uint8_t> lost_, spawn_again_, bends_;  // by node
     bool lost_roots_ = false, lost_any_ = false, spawns_again_ = false, weights_changed_ = false, touched_ = false, outdates_ = false;
@@ -375,11 +376,11 @@ void light_again(Tile& tile, const World& world) {
 
 }  // namespace
 
-void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched) {
+void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched, std::span<const Rgb> displayed) {
     if (!change.touches_trees()) return;
     if (change.anew || tile.nodes.empty()) return begin_anew(tile);
     if (change.lobes_only && !(change.lobes_bits & tile.materials) && !((change.resamples || change.outdates_samples) && is_sampled(tile))) return;
-    Reviser(tile, before, now, change, watched).run();
+    Reviser(tile, before, now, change, watched, displayed).run();
 }
 
 void settle(Tile& tile, const World& world, std::span<const scene::Level> level_of_stage) {

@@ -11,8 +11,8 @@ namespace crescente::render {
 // Brings the tile's trees from the world before to the world now. Nodes whose rays may end elsewhere are taken out with all below them; lights whose ways
 // to a node may be others are untried again; weights, what is hidden and what is pending are those that the world now gives. Traces nothing. Several
 // edits are gone through one after the other, then the tile is settled. watched: somebody looks before that, and `pixels` of a tile that is touched are the
-// picture from before.
-void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched);
+// picture from before: the one that was `displayed`, if that is not empty, else what its trees said.
+void revise(Tile& tile, const World& before, const World& now, const Change& change, bool watched, std::span<const Rgb> displayed);
 
 // Lights anew what needs no ray for it, and sends the tile back to the first stage that finds something missing. Until the stages are through, it shows
 // what holds, or what it was.

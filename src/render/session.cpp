@@ -170,6 +170,7 @@ Expected<void> Session::restore(const std::filesystem::path& file) {
     s.settled = true;
     s.seen = {};
     s.tiles = std::move(checkpoint->tiles);
+    release(s.displayed);
     ++s.clock;
     for (Tile& tile : s.tiles) tile.revision = s.edits, tile.changed = s.clock;
     SessionCounts& counts = checkpoint->head.counts;

@@ -23,7 +23,7 @@ scene::Image Session::picture(bool all_layers) const {
 }
 
 std::vector<Area> Session::refresh(Frame& frame) const {
-    const State& s = *state_;
+    State& s = *state_;
     scene::Image& image = frame.image;
     if (image.width != s.width() || image.height != s.height() || image.layers.size() != 1 || image.layers[0].channels.size() != (s.keeps_alpha() ? 4 : 3)) {
         frame = {blank_image(s.width(), s.height(), false, s.keeps_alpha()), 0};
@@ -69,8 +69,26 @@ std::vector<bool> Session::State::with_neighbours(const std::vector<bool>& which
     return wider;
 }
 
-void Session::State::show(scene::Image& image, const std::vector<bool>& which, bool regrow) const {
+// What a tile shows in the image, if the filter had a share in it.
+void Session::State::remember(std::size_t tile, const scene::Image& image, bool was_filtered) {
+    Displayed& own = displayed[tile];
+    own.time = clock;
+    if (!was_filtered) return release(own.pixels);
+    const Tile& t = tiles[tile];
+    const scene::Layer& color = image.layers[0];
+    own.pixels.clear();
+    for (int y = t.y0; y < t.y0 + t.height; ++y) {
+        for (int x = t.x0; x < t.x0 + t.width; ++x) {
+            const float* pixel = &color.values[color.channels.size() * (static_cast<std::size_t>(y) * image.width + x)];
+            own.pixels.push_back({pixel[0], pixel[1], pixel[2]});
+        }
+    }
+}
+
+void Session::State::show(scene::Image& image, const std::vector<bool>& which, bool regrow) {
     const bool filtered = denoises();
+    if (filtered) displayed.resize(tiles.size());
+    else release(displayed);
     const auto is_dropped = [](const Tile& tile) { return tile.shows_pixels(); };
     const auto is_done = [&](const Tile& tile) { return is_known(tile) && tile.shown_stage() == static_cast<int>(stages.size()); };
     // The filter wants the trees of all tiles; before the picture is finished, dropped ones show what they had.
@@ -97,7 +115,9 @@ void Session::State::show(scene::Image& image, const std::vector<bool>& which, b
         });
         const std::vector<std::vector<Rgb>> corrections = filtered ? denoise(*world, known, pool) : std::vector<std::vector<Rgb>>(tiles.size());
         pool.for_each(tiles.size(), [&](std::size_t i) {
-            if (shown[i]) expose(*trees[i], *world, level_of_stage, image, corrections[i]);
+            if (!shown[i]) return;
+            expose(*trees[i], *world, level_of_stage, image, corrections[i]);
+            if (filtered && is_known(tiles[i])) remember(i, image, !corrections[i].empty());
         });
     }
 }

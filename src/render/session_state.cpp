@@ -34,10 +34,16 @@ void Session::State::plan_stages() {
     level_rays.resize(levels().size());
 }
 
+std::span<const Rgb> Session::State::displayed_by(std::size_t tile) const {
+    return tile < displayed.size() && displayed[tile].time >= tiles[tile].changed ? displayed[tile].pixels : std::span<const Rgb>{};
+}
+
 bool Session::State::revise(Tile& tile, bool watched) {
     if (tile.revision == edits) return false;
+    std::span<const Rgb> picture = displayed_by(static_cast<std::size_t>(&tile - tiles.data()));
     for (std::size_t i = steps.size() - static_cast<std::size_t>(edits - tile.revision); i < steps.size(); ++i) {
-        render::revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change, watched);
+        render::revise(tile, *steps[i].before, i + 1 < steps.size() ? *steps[i + 1].before : *world, steps[i].change, watched, picture);
+        picture = {};
     }
     if (tile.unsettled || tile.nodes.empty()) ++revised, tile.changed = clock;
     if (!tile.samples.empty()) tile.changed = clock;  // it is filtered again, with its neighbours
@@ -76,7 +82,7 @@ bool Session::State::catch_up(const Deadline& deadline) {
 void Session::State::cut_tiles() {
     for (const Tile& tile : tiles) past_rays += tile.rays, past_tests += tile.tests;
     tiles = render::cut_tiles(world->scene.settings);
-    release(seen);
+    release(seen), release(displayed);
     ++clock;
     for (Tile& tile : tiles) tile.revision = edits, tile.changed = clock;
 }
@@ -89,7 +95,7 @@ std::optional<Reprojected> Session::State::seen_anew(const World& before) try {
     const auto has_corners = [&](const Tile& tile) { return tile.stage >= stages_to_all_roots(world->scene.settings); };
     if (seen.empty() || std::all_of(tiles.begin(), tiles.end(), has_corners)) {
         seen.assign(pixels, {});
-        pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], before.environment.backdrop(), width(), seen); });
+        pool.for_each(tiles.size(), [&](std::size_t i) { take_points(tiles[i], displayed_by(i), before.environment.backdrop(), width(), seen); });
     }
     return reproject(seen, world->camera, width(), height(), pool);
 } catch (const std::bad_alloc&) {

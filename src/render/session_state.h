@@ -46,6 +46,11 @@ struct Session::State {
     std::uint64_t clock = 0;                     // ticks when tiles may change
     bool is_finished = false;                    // the picture, at the end of the last advance()
     std::uint64_t finished = 0;                  // when it last became so
+    struct Displayed {  // a tile's pixels as they were last shown, if the filter had a share in them
+        std::vector<Rgb> pixels;
+        std::uint64_t time = 0;  // of the clock
+    };
+    std::vector<Displayed> displayed;            // beside tiles, once anything was filtered: edits go on from what the user saw
     std::vector<SeenPoint> seen;                 // by pixel, from the last camera whose picture had all its corners; until the present one's has
     Area attended;                               // where the user looks
     RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
@@ -61,6 +66,7 @@ struct Session::State {
     void cut_tiles();
     std::optional<Reprojected> seen_anew(const World& before);  // the old picture as the camera now sees it; nothing: memory is too scarce for that
     void begin_anew(const Reprojected& picture);                // the trees; until there is more the tiles show the picture
+    std::span<const Rgb> displayed_by(std::size_t tile) const;  // empty: nothing, or it has changed since
     bool revise(Tile& tile, bool watched);    // whether there was an edit that it did not know
     bool catch_up(const Deadline& deadline);  // all tiles; whether there was time for it
     bool advance_tile(Tile& tile, int until, const Deadline& deadline) const;
@@ -69,7 +75,8 @@ struct Session::State {
     static std::vector<Node> drop(Tile& tile);  // gives the memory of its nodes
     void take_spare(Tile& tile);
     void drop_finished(Tile& tile);
-    void show(scene::Image& image, const std::vector<bool>& which, bool regrow) const;  // these tiles, as they are or, where they were dropped, grown anew
+    void show(scene::Image& image, const std::vector<bool>& which, bool regrow);  // these tiles, as they are or, where they were dropped, grown anew
+    void remember(std::size_t tile, const scene::Image& image, bool was_filtered);
     bool is_known(const Tile& tile) const { return tile.revision == edits && !tile.unsettled; }  // to the trees, what the scene is
     bool denoises() const;                                                                // some tile may show what has too few samples
     std::vector<bool> with_neighbours(const std::vector<bool>& which) const;              // those too by which the filter finds what these show

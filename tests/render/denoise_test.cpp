@@ -95,6 +95,23 @@ TEST(Denoise, Frames) {
     }
 }
 
+// Light that an edit makes to be sampled anew is shown as it was shown before, without its noise, until there is some of the new.
+TEST(Denoise, EditsGoOnFromWhatWasShown) {
+    const scene::Image reference = picture_with(room(128), Denoise::off);
+    Session session = finished(room(4));
+    Frame frame;
+    session.refresh(frame);
+    const double raw = error(picture_with(room(4), Denoise::off), reference), filtered = error(frame.image, reference);
+    scene::Light light = session.scene().lights[0];
+    light.position.x += 1e-6;
+    ASSERT_TRUE(session.edit({scene::SetLight{{0}, light}}));
+    for (bool done = false; !done;) {
+        done = session.advance(Deadline::in(std::chrono::milliseconds(1))).done;
+        session.refresh(frame);
+        EXPECT_LT(error(frame.image, reference), (raw + filtered) / 2);
+    }
+}
+
 // After an edit of one object's material all others are shown as they were until it is done: the picture is nearly the final one long before all is sampled again.
 TEST(Outdated, PictureIsNearlyThereEarly) {
     Scene scene = room(64);
