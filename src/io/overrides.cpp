@@ -23,14 +23,21 @@ Expected<Problems> apply_override(scene::Scene& scene, std::string_view assignme
     const auto equals = assignment.rfind('=');
     if (equals == std::string_view::npos) return failure(ErrorKind::usage, {{}, whole, "has no '='", "write what.name.field=value"});
 
-    ProblemList problems{""};
-    scene::Draft draft(scene);
-    set_value(draft, assignment.substr(0, equals), value_json(assignment.substr(equals + 1)), {scene.unit.metres, scene.unit.name}, Place{}, problems);
-    Error error{ErrorKind::usage, problems.take()};
-    for (Problem& problem : error.problems) problem.place = whole;
-    if (!error.problems.empty()) return tl::unexpected(std::move(error));
-    apply_unchecked(draft.edits(), scene);
-    return problems.warnings();
+    const std::string_view value = assignment.substr(equals + 1);
+    const auto set = [&](const Json& json) -> Expected<Problems> {
+        ProblemList problems{""};
+        scene::Draft draft(scene);
+        set_value(draft, assignment.substr(0, equals), json, {scene.unit.metres, scene.unit.name}, Place{}, problems);
+        Error error{ErrorKind::usage, problems.take()};
+        for (Problem& problem : error.problems) problem.place = whole;
+        if (!error.problems.empty()) return tl::unexpected(std::move(error));
+        apply_unchecked(draft.edits(), scene);
+        return problems.warnings();
+    };
+    auto warnings = set(value_json(value));
+    if (warnings) return warnings;
+    auto as_text = set(Json{std::string(value)});  // "160,40" may be meant as a text
+    return as_text ? as_text : warnings;
 }
 
 }  // namespace crescente::io

@@ -66,6 +66,8 @@ TEST(Overrides, ValuesAsInFiles) {
     EXPECT_EQ(s.lights[0].color, (math::Rgb{0.5f, 1, 2}));
     apply(s, "light.key.shadows=false");
     EXPECT_FALSE(s.lights[0].shadows);
+    apply(s, "environment.sky=160,40");
+    EXPECT_EQ(s.environment->sky, "160,40");
     apply(s, "settings.width=640");
     EXPECT_EQ(s.settings.width, 640);
 }
