@@ -78,6 +78,16 @@ void PathSampler::sample(std::span<const SamplePoint> points, std::span<SampledL
     }
 }
 
+// The point as paths meet it: of what disperses, in the band that this sample has.
+PathSampler::Start PathSampler::start_of(const SamplePoint& p) {
+    Start start{{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches}, {1, 1, 1}, 0};
+    if (!disperses(*p.lobes)) return start;
+    const int band = chosen_band(p, 0);
+    banded_ = in_band(*p.lobes, band);
+    start.vertex.lobes = &banded_, start.colors = only_band(band), start.band = static_cast<std::uint8_t>(band + 1);
+    return start;
+}
+
 // Light of the groups at the points themselves, and the first directions that their materials draw.
 void PathSampler::begin(std::span<const SamplePoint> points) {
     paths_.clear(), rays_.clear();
@@ -86,10 +96,7 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::size_t k = 0; k < sampled; ++k) {
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const SamplePoint& p = points[i];
-            const bool splits = disperses(*p.lobes);
-            if (splits) banded_ = in_band(*p.lobes, chosen_band(p, 0));
-            const Rgb colors = splits ? only_band(chosen_band(p, 0)) : Rgb{1, 1, 1};
-            const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, splits ? &banded_ : p.lobes, p.path, p.instance, p.catches};
+            const auto [vertex, colors, band] = start_of(p);
             const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
             const auto u = numbers(p, 0, Use::first_light, group);
             if (const auto arrived = sample_group(vertex, group, chance, false, false, {u[0], u[1], u[2]})) {
@@ -102,30 +109,29 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
         if (!p.lamps) continue;
-        const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path};
+        const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance};
         const auto arrived = sample_lamp(vertex, numbers(p, 0, Use::lamp)[0]);
         if (arrived) queue(vertex, *arrived, {i, static_cast<std::uint32_t>(groups_), {}, arrived->light, p.path, 1, {}, true});
     }
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
         const auto u = numbers(p, 0, Use::scatter);
-        const bool splits = disperses(*p.lobes);
-        if (splits) banded_ = in_band(*p.lobes, chosen_band(p, 0));
-        const auto s = sample_scatter(splits ? banded_ : *p.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
+        const Start at = start_of(p);
+        const auto s = sample_scatter(*at.vertex.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
         if (!s) continue;
         Path path{};
         path.point = i;
         const Rgb diffuse = p.catches ? gray(cosine_of(p.facing, s->direction)) : s->value.diffuse;
         path.diffuse = over(diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
+        path.diffuse *= at.colors, path.glossy *= at.colors, path.band = at.band;
         path.throughput = path.throughput_on = {1, 1, 1};
         path.from = p.position, path.sender = p.instance, path.length = p.path;
-        if (splits) path.band = static_cast<std::uint8_t>(chosen_band(p, 0) + 1), path.diffuse *= only_band(path.band - 1), path.glossy *= only_band(path.band - 1);
         path.pdf = s->delta ? 0 : s->value.pdf;
         path.sharp = path.clear = s->delta;
         path.chance = chance;
         path.scattered = s->part == Part::diffuse;
         paths_.push_back(path);
-        rays_.push_back(ray_from({p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance}, s->direction));
+        rays_.push_back(ray_from(at.vertex, s->direction));
     }
 }
 
@@ -161,7 +167,8 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             const TexturedMaterial* textured = world_.textured_material(material);
             if (textured && blurs) textured = world_.blurred_textured[material].get();
             const Lobes& plain = (blurs ? world_.blurred_lobes : world_.lobes)[material];
-            const TexturePoint place = textured ? texture_point(world_, ray, hit, path.length) : TexturePoint{};
+            TexturePoint place = textured ? texture_point(world_, ray, hit, path.length) : TexturePoint{};
+            place.blurred = !path.clear;
             if (textured) own_ = textured->lobes_at(place);
             const Lobes& lobes = textured ? own_ : plain;
             Vertex vertex{lane(at.position, i), {lane(at.shading, i), lane(at.geometric, i), (at.inside >> i & 1) != 0}, -ray.direction, at.offset[i], &lobes, path.length + hit.t, hit.instance};

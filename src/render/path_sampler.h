@@ -86,6 +86,11 @@ private:
         std::uint32_t instance;
         bool catches = false;
     };
+    struct Start {  // of the paths of a point
+        Vertex vertex;
+        Rgb colors;
+        std::uint8_t band = 0;  // as Path::band, with the colours that are followed for all
+    };
     struct Arrived {  // light of a group at a vertex, and what this sends back of it
         Scattered value;
         Vec3 direction;
@@ -93,6 +98,7 @@ private:
         Rgb light;
         double share = 1;  // counted in `light`: the rest is left to directions that the material draws
     };
+    Start start_of(const SamplePoint& point);
     void begin(std::span<const SamplePoint> points);
     void step(std::span<const SamplePoint> points);
     void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);

@@ -29,9 +29,10 @@ int wrapped(double i, int size, Wrap wrap) {
     return 0;
 }
 
-Rgba nearest(const Texture& t, double u, double v) {
+Rgba nearest(const Texture& t, int level, double u, double v) {
     const TextureImage& image = *t.image;
-    return image.texel(0, wrapped(std::floor(u * image.width()), image.width(), t.wrap_u), wrapped(std::floor(v * image.height()), image.height(), t.wrap_v));
+    const int width = image.width(level), height = image.height(level);
+    return image.texel(level, wrapped(std::floor(u * width), width, t.wrap_u), wrapped(std::floor(v * height), height, t.wrap_v));
 }
 
 Rgba bilinear(const Texture& t, int level, double u, double v) {
@@ -47,7 +48,7 @@ Rgba bilinear(const Texture& t, int level, double u, double v) {
 
 }  // namespace
 
-Rgba filtered_image(const Texture& t, const TexturePlace& place) {
+Rgba filtered_image(const Texture& t, const TexturePlace& place, bool blurred) {
     const TextureImage& image = *t.image;
     // A place so far out that its numbers have no fractions, or none at all, is anywhere.
     constexpr double farthest = 1e9;
@@ -57,10 +58,11 @@ Rgba filtered_image(const Texture& t, const TexturePlace& place) {
     const double a = texels(place.axes[0]), b = texels(place.axes[1]);
     const Vec3& along = a > b ? place.axes[0] : place.axes[1];
     const double major = std::max(a, b);
-    if (!(major > 1) && t.filter == scene::TextureFilter::nearest) return nearest(t, u, v);
+    if (!(major > 1) && t.filter == scene::TextureFilter::nearest) return nearest(t, 0, u, v);
     if (!(major > 1)) return bilinear(t, 0, u, v);
-    constexpr double most_taps = 16;
     if (!std::isfinite(major)) return image.texel(image.level_count() - 1, 0, 0);
+    if (blurred) return nearest(t, static_cast<int>(std::min(std::log2(major) + 0.5, image.level_count() - 1.0)), u, v);
+    constexpr double most_taps = 16;
     const double minor = std::max({std::min(a, b), major / most_taps, 1.0});
     const int taps = static_cast<int>(std::ceil(major / minor));
     const double coarseness = std::min(std::log2(minor), image.level_count() - 1.0);

@@ -5,7 +5,8 @@
 
 namespace crescente::render {
 
-// The mean of the picture over the place's footprint. The texture has a decoded image.
-scene::Rgba filtered_image(const scene::Texture& texture, const TexturePlace& place);
+// The mean of the picture over the place's footprint, or, of what is seen blurred, the nearest texel at the pyramid's level of that size. The texture has a
+// decoded image.
+scene::Rgba filtered_image(const scene::Texture& texture, const TexturePlace& place, bool blurred = false);
 
 }  // namespace crescente::render

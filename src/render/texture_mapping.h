@@ -25,6 +25,7 @@ struct TexturePoint {
     Vec3 to_viewer;    // unit length
     double width = 0;  // of the ray's cone, m
     bool inside = false;  // seen from the inner side
+    bool blurred = false;  // seen by light that was scattered on its way: one texel of the footprint's size is enough
 };
 
 // The ellipse that the cone covers on the surface: its axes, at right angles, each the whole width long.

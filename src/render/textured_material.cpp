@@ -30,8 +30,8 @@ Rgba vertex_color(const TexturePoint& point) {
     return sum;
 }
 
-Rgba value_at(const Texture& texture, const TexturePlace& place) {
-    if (texture.kind == TextureKind::image) return filtered_image(texture, place);
+Rgba value_at(const Texture& texture, const TexturePlace& place, bool blurred = false) {
+    if (texture.kind == TextureKind::image) return filtered_image(texture, place, blurred);
     const Rgb color = mix(texture.color_b, texture.color_a, static_cast<float>(procedure_value(texture, place)));
     return {color.r, color.g, color.b, 1};
 }
@@ -82,7 +82,7 @@ Vec3 slope(const Texture& texture, const TexturePlaces& places, const TexturePoi
 }
 
 // The vector of a normal map, by right, up and outward directions of the surface.
-Vec3 mapped(const Texture& texture, const TexturePlaces& places, Vec3 outward) {
+Vec3 mapped(const Texture& texture, const TexturePlaces& places, Vec3 outward, bool blurred) {
     Vec3 sum;
     bool leans = false;
     for (int k = 0; k < places.count; ++k) {
@@ -91,7 +91,7 @@ Vec3 mapped(const Texture& texture, const TexturePlaces& places, Vec3 outward) {
         const double l = length(along);
         if (!(l > 0)) return outward;
         const Vec3 right = along / l, up = cross(outward, right) * (dot(cross(outward, right), place.up) < 0 ? -1.0 : 1.0);
-        const Rgba value = value_at(texture, place);
+        const Rgba value = value_at(texture, place, blurred);
         const double x = (2.0 * value.r - 1) * texture.strength, y = (2.0 * value.g - 1) * texture.strength;
         leans = leans || x != 0 || y != 0;
         sum += (right * x + up * y + outward * (2.0 * value.b - 1)) * place.weight;
@@ -107,7 +107,7 @@ Rgba texture_value(const Texture& texture, const TexturePlaces& places, const Te
     Rgba sum{0, 0, 0, 0};
     for (int k = 0; k < places.count; ++k) {
         const TexturePlace& place = places.place[static_cast<std::size_t>(k)];
-        const Rgba value = value_at(texture, place);
+        const Rgba value = value_at(texture, place, point.blurred);
         const auto weight = static_cast<float>(place.weight);
         sum.r += weight * value.r, sum.g += weight * value.g, sum.b += weight * value.b, sum.a += weight * value.a;
     }
@@ -203,7 +203,7 @@ Vec3 TexturedMaterial::bent(const std::vector<scene::TextureBinding>& relief, co
             continue;
         }
         if (binding.target != "bump") {
-            outward = mapped(binding.texture, places, outward);
+            outward = mapped(binding.texture, places, outward, point.blurred);
             continue;
         }
         const Vec3 lifted = outward - slope(binding.texture, places, point);

@@ -116,12 +116,21 @@ Rgba TextureImage::texel(int level_index, int x, int y) const {
     const Level& level = levels_[static_cast<std::size_t>(level_index)];
     const auto n = static_cast<std::size_t>(channels_);
     const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)) * n;
-    Rgba value;
-    value.r = sample(level, at, false);
-    if (n < 3) value.g = value.b = value.r;
-    else value.g = sample(level, at + 1, false), value.b = sample(level, at + 2, false);
-    if (n % 2 == 0) value.a = sample(level, at + n - 1, true);
-    return value;
+    const auto gathered = [&](auto&& color, auto&& alpha) {
+        Rgba value;
+        value.r = color(at);
+        if (n < 3) value.g = value.b = value.r;
+        else value.g = color(at + 1), value.b = color(at + 2);
+        if (n % 2 == 0) value.a = alpha(at + n - 1);
+        return value;
+    };
+    // Most pictures are like this, and the choice is made once for all channels.
+    if (level.coding == Coding::srgb8) {
+        const auto& linear = linear_of_bytes();
+        const std::uint8_t* samples = level.samples.data();
+        return gathered([&](std::size_t i) { return linear[samples[i]]; }, [&](std::size_t i) { return static_cast<float>(samples[i]) / 255.0f; });
+    }
+    return gathered([&](std::size_t i) { return sample(level, i, false); }, [&](std::size_t i) { return sample(level, i, true); });
 }
 
 std::size_t TextureImage::bytes() const {

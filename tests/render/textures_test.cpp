@@ -72,6 +72,7 @@ TEST(Textures, ACheckerFromFarIsItsMean) {
         EXPECT_NEAR(filtered_image(picture, place(u, v, w + 0.4, (w + 0.4) * 0.02)).g, 0.5, 0.04) << "along a narrow footprint too, but for what it cuts of the last squares";
         EXPECT_NEAR(procedure_value(procedure, place(u * 100, v * 100, 50 * w, 50 * w)), 0.5, 0.05);
     }
+    EXPECT_NEAR(filtered_image(picture, place(0.3, 0.7, 8.0 / size, 8.0 / size), true).r, 0.5, 1e-3) << "of what is seen blurred, one texel of that size";
     EXPECT_NEAR(filtered_image(picture, place(0.5 / size, 0.5 / size)).r, 0, 1e-6) << "from near it is what it is";
     EXPECT_NEAR(filtered_image(picture, place(1.5 / size, 0.5 / size)).r, 1, 1e-6);
     EXPECT_NEAR(procedure_value(procedure, place(0.5, 0.5)), 1, 1e-9);
