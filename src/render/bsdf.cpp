@@ -43,6 +43,7 @@ private:
         Vec3 world(Vec3 w) const { return x * w.x + y * w.y + z * w.z; }
     };
     Vec3 local(Vec3 w) const { return frame_.local(w); }
+    double above_layer(Vec3 w, double coat_cosine) const;
     double missing(Vec3 w) const;  // between facets, if these reflect all
     double along_grain(Vec3 w) const;
     bool allows(Vec3 to_light, bool crosses) const { return (dot(facing_.shading, to_light) < 0) == crosses && (dot(facing_.geometric, to_light) < 0) == crosses; }
@@ -95,7 +96,7 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
     weights[diffuse] = lobes.layered() ? mean(lobes.diffuse) * pi * (1 - layer_over_diffuse(v_)) : mean(lobes.diffuse);
     if (lobes.layered() && !mirror_base_) {
         weights[multiple] = mean(lobes.multiple) * missing(v_);
-        weights[rough] = mean(tabled_reflectance(lobes, v_.z));
+        weights[rough] = mean(tabled_reflectance(lobes, v_.z)) + (lobes.film > 0 ? lobes.film * mean(facet_reflectance(lobes, v_.z)) : 0);
     }
     if (lobes.transmits() && !mirror_base_) {
         const FacetColors f = facet(v_.z);
@@ -143,8 +144,14 @@ Scattering::FacetColors Scattering::facet(double cosine) const {
 
 // What of the light at this cosine does not reach the diffuse lobe, since it is reflected before.
 double Scattering::layer_over_diffuse(Vec3 w) const {
-    const double kept = layer_at(lobes_, w.z, lobes_.transmits() ? side_ : 0).kept;
+    if (lobes_.transmits() && lobes_.glass.density[side_] == 0) return is_black(lobes_.diffuse) ? 0 : max_component(glass_interface(lobes_, std::min(w.z, 1.0), eta_).reflected);
+    const double kept = layer_at(lobes_, w.z, side_).kept;
     return lobes_.grained() ? std::clamp(kept + at_cosine(lobes_.layer_lean, w.z) * along_grain(w), 0.0, 1.0) : kept;
+}
+
+// What coat and fibres leave of it before. All that reaches the diffuse lobe is coupled as reflect_physical has it, so that what is over it, one by one or together, takes what it reflects and no more.
+double Scattering::above_layer(Vec3 w, double coat_cosine) const {
+    return facing_.inside ? 1 : (1 - sheen_reflectance(lobes_, w.z)) * (1 - coat_reflectance(lobes_, coat_cosine));
 }
 
 double Scattering::missing(Vec3 w) const {
@@ -190,11 +197,8 @@ void Scattering::add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const {
         sum.diffuse = lobes_.diffuse * static_cast<float>(l.z / pi);
         return;
     }
-    double radiance[3];
-    PhysicalView<double> view = physical_view(lobes_, v_.z);
-    view.layer.kept = layer_over_diffuse(v_);
-    reflect_physical(view, l.z, dot(viewer_, to_light), LayerAt<double>{layer_over_diffuse(l), 0}, false, radiance);
-    sum.diffuse = {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
+    const double reaches = (1 - layer_over_diffuse(v_)) * above_layer(v_, coat_v_.z) * (1 - layer_over_diffuse(l)) * above_layer(l, coat_cosine(lobes_, to_light, l.z));
+    sum.diffuse = lobes_.diffuse * static_cast<float>(reaches * lobes_.layer_gives_back[side_] * l.z);
 }
 
 void Scattering::add_facets(Vec3 l, Scattered& sum) const {
@@ -239,13 +243,13 @@ void Scattering::add_multiple(Vec3 l, Scattered& sum) const {
     }
 }
 
-// The coat takes what it reflects, and no more reaches what is below than that leaves, seen from either end; it adds its own reflection.
+// The coat takes what it reflects from the facets below, and no more reaches these than that leaves, seen from either end; it adds its own reflection.
 void Scattering::under_coat(Vec3 l, Vec3 to_light, Scattered& sum) const {
     const Vec3 coat_l = lobes_.coat_normal == Vec3{} ? l : coat_frame_.local(to_light);
     double kept = facing_.inside ? 0 : coat_reflectance(lobes_, coat_v_.z);
     if (facing_.inside == (l.z < 0)) kept = std::max(kept, coat_reflectance(lobes_, std::min(1.0, std::abs(coat_l.z))));
     const auto below = static_cast<float>(1 - kept);
-    sum.diffuse *= gray(below), sum.glossy *= gray(below);
+    sum.glossy *= gray(below);
     if (chances_[coated] == 0 || l.z <= 0 || coat_l.z <= 0) return;
     const Vec3 h = normalize(coat_v_ + coat_l);
     const double v_h = std::clamp(dot(coat_v_, h), 1e-12, 1.0), lobe = coat_facets_.density(h) * coat_facets_.seen_by_both(coat_v_, coat_l) / (4 * coat_v_.z);
@@ -258,7 +262,7 @@ void Scattering::under_sheen(Vec3 l, Scattered& sum) const {
     double kept = facing_.inside ? 0 : sheen_reflectance(lobes_, v_.z);
     if (facing_.inside == (l.z < 0)) kept = std::max(kept, sheen_reflectance(lobes_, std::min(1.0, std::abs(l.z))));
     const auto below = static_cast<float>(1 - kept);
-    sum.diffuse *= gray(below), sum.glossy *= gray(below);
+    sum.glossy *= gray(below);
     if (chances_[fibres] == 0 || l.z <= 0) return;
     const double held = sheen_held(at_cosine(lobes_.sheen_sums, v_.z)) * sheen_held(at_cosine(lobes_.sheen_sums, l.z));
     const double n_h = (v_.z + l.z) / std::sqrt(std::max(1e-12, 2 + 2 * dot(v_, l)));

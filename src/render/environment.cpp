@@ -73,7 +73,7 @@ Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3
     Rgb result = lobes.ambient_diffuse * irradiance;
     if (lobes.layered()) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
-        const LayerShare layer = at_cosine(lobes.layer[inside && lobes.transmits()], cosine);
+        const LayerShare layer = at_cosine(lobes.layer[inside], cosine);
         const float blurred = 1 - lobes.mirror_share;
         // The layer lets in what neither the mirrored ray nor the blurred reflection takes.
         const float mirrored_share = layer_mirrors(lobes, cosine, inside) * lobes.mirror_share;

@@ -111,7 +111,26 @@ UnderFilm under_film(const Lobes& lobes) {
 float kept_by_glass(const Lobes& lobes, std::size_t i, std::size_t side) {
     const RoughGlass& glass = lobes.glass;
     if (glass.density[side] == 0 || std::abs(lobes.ior - 1) < least_bend) return max_component(glass_interface(lobes, tabled_cosine(i), side == 0 ? lobes.ior : 1 / lobes.ior).reflected);
-    return glass.sums[side][i].scale + static_cast<float>(glass.sums[side][i].missing()) * (1 - glass.through[side]);
+    // Where it rises as steeply as towards total reflection, no less than at any cosine up to the next of the table: nothing is gained by interpolation.
+    float most = 0;
+    for (std::size_t k = i - (i > 0); k < std::min(i + 1 + side, glass.sums[side].size()); ++k) {
+        const SplitSum& sum = glass.sums[side][k];
+        if (side == 1 || k == i) most = std::max(most, sum.scale + static_cast<float>(sum.missing()) * (1 - glass.through[side]));
+    }
+    return most;
+}
+
+void set_gives_back(Lobes& lobes) {
+    const auto give_back = [&](std::size_t side, double reaches) { lobes.layer_gives_back[side] = reaches > 0 ? static_cast<float>(1 / reaches) : 0; };
+    CosineTable<float> outside, inside, below_coat;
+    for (std::size_t i = 0; i < outside.size(); ++i) {
+        const double cosine = tabled_cosine(i), above = (1 - sheen_reflectance(lobes, cosine)) * (1 - coat_reflectance(lobes, cosine));
+        outside[i] = 1 - lobes.layer[0][i].kept, inside[i] = 1 - lobes.layer[1][i].kept, below_coat[i] = outside[i] * static_cast<float>(above);
+    }
+    give_back(0, mean_over_light(below_coat));
+    // Of an interface that is not asked of a table, what is not in the steps of one: as much passes from inside as from outside, but for total reflection.
+    const bool by_interface = lobes.transmits() && lobes.glass.density[1] == 0;
+    give_back(1, by_interface ? mean_over_light(outside) / (lobes.ior * lobes.ior) : mean_over_light(inside));
 }
 
 // film: reflectance of the surface if all of it is under its thin film.
@@ -128,6 +147,7 @@ void set_layer(Lobes& lobes, const CosineTable<float>& film) {
             share.kept = std::clamp(share.kept, 0.0f, 1.0f);
         }
     }
+    set_gives_back(lobes);
     if (!lets_in || !lobes.grained() || lobes.transmits()) return;
     for (std::size_t i = 0; i < film.size(); ++i) lobes.layer_lean[i] = kept(lobes.lean[i].whole(), lobes.rise_lean[i]) * (1 - lobes.film);
 }

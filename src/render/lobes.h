@@ -65,6 +65,7 @@ struct Lobes {
     float layer_f0 = 0;      // of that dielectric, the layer over the diffuse lobe: the most of its channels
     float layer_f90 = 1;
     std::array<CosineTable<LayerShare>, 2> layer{};  // of light from the outer side, and from the inner
+    std::array<float, 2> layer_gives_back{};         // of either side: 1 over the mean of all light that reaches the diffuse lobe, through coat and sheen too
     CosineTable<float> layer_lean{};                 // with a grain: of what is kept, to be added along it, and taken away across (GrainSums)
     SplitSums sums{};        // physical: reflectance of the whole ggx lobe
     CosineTable<float> rise{};       // of the same facets, if these reflect what a dielectric of layer_ior rises by
