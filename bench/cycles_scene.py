@@ -108,8 +108,8 @@ def layer_image(table):
 def build_twin(n, m, layer):
     """m: inputs by name, each a value or a socket. Returns the shader's socket.
 
-    Facets reflect by Schlick's approximation in Crescente, as glTF has it. The Principled BSDF of a metal goes from its color to white as Fresnel's equations do for the index that
-    its Specular stands for: with 1.28 this is nearest to Schlick's fifth power (0.035 and 0.18 at 60 and 75 degrees; 0.031 and 0.22).
+    Facets of dielectrics reflect after Fresnel's equations in both, those of metals by Schlick's approximation in Crescente, as glTF has it. The Principled BSDF of a metal goes from its color to white as
+    Fresnel's equations do for the index that its Specular stands for: with 1.28 this is nearest to Schlick's fifth power (0.035 and 0.18 at 60 and 75 degrees; 0.031 and 0.22).
     """
     size = layer.size[0]
     metallic, roughness, color, normal = m["metallic"], m["roughness"], m["base_color"], m.get("normal")
@@ -133,14 +133,18 @@ def build_twin(n, m, layer):
         inputs = {"Metallic": 1, "Specular": SCHLICK_SPECULAR, "Roughness": roughness, "Clearcoat": 0, "Sheen": 0, "Base Color": color}
         return n.node("ShaderNodeBsdfPrincipled", {**inputs, **normal_input}, distribution="MULTI_GGX").outputs["BSDF"]
 
+    def layer_facets():
+        inputs = {"Metallic": 0, "Specular": f0 / 0.08, "Specular Tint": 0, "Roughness": roughness, "Clearcoat": 0, "Sheen": 0, "Base Color": (0, 0, 0)}
+        return n.node("ShaderNodeBsdfPrincipled", {**inputs, **normal_input}, distribution="GGX").outputs["BSDF"]
+
     shader = None
     if not is_number(metallic) or metallic < 1:
         diffuse = n.node("ShaderNodeBsdfDiffuse", {"Color": n.scaled(color, lets_in), "Roughness": 0, **normal_input}).outputs[0]
         if m["transmission"] > 0:
             glass = n.node("ShaderNodeBsdfGlass", {"Color": color, "Roughness": roughness, "IOR": m["ior"], **normal_input}, distribution="MULTI_GGX").outputs[0]
-            shader = glass if m["transmission"] == 1 else n.mixed(m["transmission"], n.added(diffuse, facets((f0, f0, f0))), glass)
+            shader = glass if m["transmission"] == 1 else n.mixed(m["transmission"], n.added(diffuse, layer_facets()), glass)
         else:
-            shader = n.added(diffuse, facets((f0, f0, f0))) if f0 > 0 else diffuse
+            shader = n.added(diffuse, layer_facets()) if f0 > 0 else diffuse
     if not is_number(metallic) or metallic > 0:
         metal = facets(color)
         shader = metal if shader is None else n.mixed(metallic, shader, metal)

@@ -99,16 +99,18 @@ Json told(const scene::Environment& e) {
             {"backdrop_bottom", told(e.backdrop_bottom)}, {"backdrop_top", told(e.backdrop_top)}, {"image", e.image}, {"rotation", e.rotation}, {"intensity", e.intensity}};
 }
 
-// Reflectance of the rough layer of physical materials towards the viewer, scale * f0 + bias: rows by roughness, columns by the root of the cosine.
+// Reflectance of the rough layer of physical materials of index 1.5 towards the viewer, as scale * f0 + bias: rows by roughness, columns by the root of the cosine.
 Json layer_table() {
+    render::CosineTable<float> law;
+    for (std::size_t i = 0; i < law.size(); ++i) law[i] = static_cast<float>(render::fresnel_rise(1.5).at(render::tabled_cosine(i)));
     Json rows = Json::array();
     for (int i = 0; i < layer_cells; ++i) {
         const double roughness = i / double(layer_cells - 1);
-        const auto sums = render::tabled_split_sums(std::max(double(render::smoothest_alpha), roughness * roughness));
+        const render::FacetSums facets = render::tabled_facet_sums(std::max(double(render::smoothest_alpha), roughness * roughness));
+        const render::CosineTable<float> rise = render::reflectance(facets.shares, law);
         for (int j = 0; j < layer_cells; ++j) {
-            const double root = j / double(layer_cells - 1);
-            const render::SplitSum sum = render::split_sum(sums, root * root);
-            rows.push_back({sum.scale, sum.bias});
+            const double root = j / double(layer_cells - 1), bias = render::at_cosine(rise, root * root);
+            rows.push_back({render::at_cosine(facets.sums, root * root).whole() - bias, bias});
         }
     }
     return rows;

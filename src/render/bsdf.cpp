@@ -7,8 +7,6 @@
 namespace crescente::render {
 namespace {
 
-constexpr double bends = 1e-3;  // of the index: below, light goes straight through even a rough surface
-
 double mean(Rgb c) { return (double(c.r) + c.g + c.b) / 3; }
 
 double power(double base, double exponent) { return exponent == 0 ? 1 : std::pow(std::max(0.0, base), exponent); }
@@ -22,7 +20,7 @@ enum class SmoothAs : std::uint8_t { nothing, rays, highlights };
 Smooth smooth_facets(const Lobes& lobes) {
     if (!lobes.layered()) return {true, true};
     const bool smooth = lobes.smooth();
-    return {smooth || (lobes.coat > 0 && lobes.coat_is_smooth()), smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < bends};
+    return {smooth || (lobes.coat > 0 && lobes.coat_is_smooth()), smooth || !lobes.transmits() || std::abs(lobes.ior - 1) < least_bend};
 }
 
 class Scattering {
@@ -45,7 +43,9 @@ private:
         Vec3 world(Vec3 w) const { return x * w.x + y * w.y + z * w.z; }
     };
     Vec3 local(Vec3 w) const { return frame_.local(w); }
-    SplitSum sums_at(Vec3 w) const;  // on the outer side, or as if
+    double above_layer(Vec3 w, double coat_cosine) const;
+    double missing(Vec3 w) const;  // between facets, if these reflect all
+    double along_grain(Vec3 w) const;
     bool allows(Vec3 to_light, bool crosses) const { return (dot(facing_.shading, to_light) < 0) == crosses && (dot(facing_.geometric, to_light) < 0) == crosses; }
     double layer_over_diffuse(Vec3 w) const;
     double missing_in_glass(double cosine, std::size_t side) const;
@@ -95,9 +95,8 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
     double weights[lobe_count] = {};
     weights[diffuse] = lobes.layered() ? mean(lobes.diffuse) * pi * (1 - layer_over_diffuse(v_)) : mean(lobes.diffuse);
     if (lobes.layered() && !mirror_base_) {
-        const SplitSum sum = sums_at(v_);
-        weights[multiple] = mean(lobes.multiple) * sum.missing();
-        weights[rough] = mean(lobes.highlight) * sum.scale + double(lobes.coverage) * sum.bias;
+        weights[multiple] = mean(lobes.multiple) * missing(v_);
+        weights[rough] = mean(tabled_reflectance(lobes, v_.z)) + (lobes.film > 0 ? lobes.film * mean(facet_reflectance(lobes, v_.z)) : 0);
     }
     if (lobes.transmits() && !mirror_base_) {
         const FacetColors f = facet(v_.z);
@@ -130,14 +129,13 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
 }
 
 Scattering::FacetColors Scattering::facet(double cosine) const {
-    const auto grazing = static_cast<float>(fifth_power(1 - cosine));
     FacetColors f;
     if (lobes_.transmits()) {
         const Interface through = glass_interface(lobes_, cosine, eta_);
-        f.reflected = lobes_.mirror * through.reflected + lobes_.metal + (gray(lobes_.metal_share) - lobes_.metal) * grazing + beyond_schlick(lobes_, cosine);
+        f.reflected = lobes_.mirror * through.reflected + schlick(lobes_.metal, lobes_.metal_share, cosine) + beyond_tables(lobes_, cosine);
         if (!smooth_.refracts) f.transmitted = lobes_.refraction * through.through;
     } else {
-        f.reflected = lobes_.highlight + (gray(lobes_.coverage) - lobes_.highlight) * grazing + beyond_schlick(lobes_, cosine);
+        f.reflected = facet_reflectance(lobes_, cosine);
     }
     const double r = mean(f.reflected), t = mean(f.transmitted);
     f.chance_reflected = t == 0 ? 1 : r / (r + t);
@@ -146,28 +144,30 @@ Scattering::FacetColors Scattering::facet(double cosine) const {
 
 // What of the light at this cosine does not reach the diffuse lobe, since it is reflected before.
 double Scattering::layer_over_diffuse(Vec3 w) const {
-    if (is_black(lobes_.diffuse)) return 0;
-    if (!lobes_.transmits()) {
-        if (!lobes_.grained()) return layer_at(lobes_, std::clamp(w.z, 1e-4, 1.0)).kept;
-        const SplitSum sum = sums_at(w);
-        return double(sum.scale) * lobes_.layer_f0 + double(sum.bias) * lobes_.layer_f90;
-    }
-    if (smooth_.refracts || lobes_.glass.density[side_] == 0) return max_component(glass_interface(lobes_, std::min(w.z, 1.0), eta_).reflected);
-    return split_sum(lobes_.glass.sums[side_], w.z).scale + missing_in_glass(w.z, side_) * (1 - lobes_.glass.through[side_]);
+    if (lobes_.transmits() && lobes_.glass.density[side_] == 0) return is_black(lobes_.diffuse) ? 0 : max_component(glass_interface(lobes_, std::min(w.z, 1.0), eta_).reflected);
+    const double kept = layer_at(lobes_, w.z, side_).kept;
+    return lobes_.grained() ? std::clamp(kept + at_cosine(lobes_.layer_lean, w.z) * along_grain(w), 0.0, 1.0) : kept;
 }
 
-SplitSum Scattering::sums_at(Vec3 w) const {
-    SplitSum sum = split_sum(lobes_.sums, std::clamp(w.z, 1e-4, 1.0));
+// What coat and fibres leave of it before. All that reaches the diffuse lobe is coupled as reflect_physical has it, so that what is over it, one by one or together, takes what it reflects and no more.
+double Scattering::above_layer(Vec3 w, double coat_cosine) const {
+    return facing_.inside ? 1 : (1 - sheen_reflectance(lobes_, w.z)) * (1 - coat_reflectance(lobes_, coat_cosine));
+}
+
+double Scattering::missing(Vec3 w) const {
+    if (!lobes_.grained()) return layer_at(lobes_, w.z).missing;
+    return (at_cosine(lobes_.sums, w.z) + at_cosine(lobes_.lean, w.z) * static_cast<float>(along_grain(w))).missing();
+}
+
+// Cosine of twice the angle that a direction makes with the grain.
+double Scattering::along_grain(Vec3 w) const {
     const double x2 = w.x * w.x, y2 = w.y * w.y;
-    if (!lobes_.grained() || x2 + y2 == 0) return sum;
-    const SplitSum lean = split_sum(lobes_.lean, std::clamp(w.z, 1e-4, 1.0));
-    const auto turned = static_cast<float>((x2 - y2) / (x2 + y2));  // cosine of twice the azimuth
-    return {sum.scale + lean.scale * turned, sum.bias + lean.bias * turned};
+    return x2 + y2 > 0 ? (x2 - y2) / (x2 + y2) : 0;
 }
 
 double Scattering::missing_in_glass(double cosine, std::size_t side) const {
     if (lobes_.glass.density[side] == 0) return 0;
-    return split_sum(lobes_.glass.sums[side], cosine).missing();
+    return at_cosine(lobes_.glass.sums[side], cosine).missing();
 }
 
 // Classic strengths are meant for sharp highlights: a broad one is kept from giving back more than its strength.
@@ -197,11 +197,8 @@ void Scattering::add_diffuse(Vec3 l, Vec3 to_light, Scattered& sum) const {
         sum.diffuse = lobes_.diffuse * static_cast<float>(l.z / pi);
         return;
     }
-    double radiance[3];
-    PhysicalView<double> view = physical_view(lobes_, v_.z);
-    view.layer.kept = layer_over_diffuse(v_);
-    reflect_physical(view, l.z, dot(viewer_, to_light), LayerAt<double>{layer_over_diffuse(l), 0}, false, radiance);
-    sum.diffuse = {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
+    const double reaches = (1 - layer_over_diffuse(v_)) * above_layer(v_, coat_v_.z) * (1 - layer_over_diffuse(l)) * above_layer(l, coat_cosine(lobes_, to_light, l.z));
+    sum.diffuse = lobes_.diffuse * static_cast<float>(reaches * lobes_.layer_gives_back[side_] * l.z);
 }
 
 void Scattering::add_facets(Vec3 l, Scattered& sum) const {
@@ -230,7 +227,7 @@ void Scattering::add_multiple(Vec3 l, Scattered& sum) const {
     const double cosine = l.z;
     const RoughGlass& glass = lobes_.glass;
     if (cosine > 0 && chances_[multiple] > 0) {
-        sum.glossy += lobes_.multiple * static_cast<float>(sums_at(v_).missing() * sums_at(l).missing() * lobes_.multiple_density * cosine);
+        sum.glossy += lobes_.multiple * static_cast<float>(missing(v_) * missing(l) * lobes_.multiple_density * cosine);
         sum.pdf += chances_[multiple] * density_of_cosine(lobes_.multiple_cells, cosine);
     }
     if (cosine > 0 && chances_[glass_multiple] > 0) {
@@ -246,17 +243,17 @@ void Scattering::add_multiple(Vec3 l, Scattered& sum) const {
     }
 }
 
-// The coat takes what it reflects, and no more reaches what is below than that leaves, seen from either end; it adds its own reflection.
+// The coat takes what it reflects from the facets below, and no more reaches these than that leaves, seen from either end; it adds its own reflection.
 void Scattering::under_coat(Vec3 l, Vec3 to_light, Scattered& sum) const {
     const Vec3 coat_l = lobes_.coat_normal == Vec3{} ? l : coat_frame_.local(to_light);
     double kept = facing_.inside ? 0 : coat_reflectance(lobes_, coat_v_.z);
     if (facing_.inside == (l.z < 0)) kept = std::max(kept, coat_reflectance(lobes_, std::min(1.0, std::abs(coat_l.z))));
     const auto below = static_cast<float>(1 - kept);
-    sum.diffuse *= gray(below), sum.glossy *= gray(below);
+    sum.glossy *= gray(below);
     if (chances_[coated] == 0 || l.z <= 0 || coat_l.z <= 0) return;
     const Vec3 h = normalize(coat_v_ + coat_l);
     const double v_h = std::clamp(dot(coat_v_, h), 1e-12, 1.0), lobe = coat_facets_.density(h) * coat_facets_.seen_by_both(coat_v_, coat_l) / (4 * coat_v_.z);
-    sum.glossy += schlick(gray(coat_f0), 1, v_h) * static_cast<float>(lobes_.coat * lobe);
+    sum.glossy += gray(static_cast<float>(fresnel_dielectric(v_h, coat_ior) * lobes_.coat * lobe));
     sum.pdf += chances_[coated] * coat_facets_.density_seen(coat_v_, h) / (4 * v_h);
 }
 
@@ -265,9 +262,9 @@ void Scattering::under_sheen(Vec3 l, Scattered& sum) const {
     double kept = facing_.inside ? 0 : sheen_reflectance(lobes_, v_.z);
     if (facing_.inside == (l.z < 0)) kept = std::max(kept, sheen_reflectance(lobes_, std::min(1.0, std::abs(l.z))));
     const auto below = static_cast<float>(1 - kept);
-    sum.diffuse *= gray(below), sum.glossy *= gray(below);
+    sum.glossy *= gray(below);
     if (chances_[fibres] == 0 || l.z <= 0) return;
-    const double held = sheen_held(sheen_sum(lobes_.sheen_sums, v_.z)) * sheen_held(sheen_sum(lobes_.sheen_sums, l.z));
+    const double held = sheen_held(at_cosine(lobes_.sheen_sums, v_.z)) * sheen_held(at_cosine(lobes_.sheen_sums, l.z));
     const double n_h = (v_.z + l.z) / std::sqrt(std::max(1e-12, 2 + 2 * dot(v_, l)));
     sum.glossy += lobes_.sheen * static_cast<float>(held * sheen_reflected(lobes_.sheen_alpha, v_.z, l.z, std::min(1.0, n_h)));
     sum.pdf += chances_[fibres] / (2 * pi);
@@ -364,7 +361,7 @@ Smooth smooth_lobes(const Lobes& lobes) {
     return smooth;
 }
 
-bool disperses(const Lobes& lobes) { return lobes.dispersion > 0 && lobes.transmits() && std::abs(lobes.ior - 1) >= bends; }
+bool disperses(const Lobes& lobes) { return lobes.dispersion > 0 && lobes.transmits() && std::abs(lobes.ior - 1) >= least_bend; }
 
 Lobes in_band(const Lobes& lobes, int band) {
     Lobes one = lobes;
@@ -377,10 +374,10 @@ ChildWeights smooth_weights(const Lobes& lobes, double cosine, double coat_cosin
     ChildWeights weights;
     if (lobes.transmits()) {
         const Interface facet = glass_interface(lobes, cosine, inside ? 1 / lobes.ior : lobes.ior);
-        if (lobes.smooth()) weights.reflected = lobes.mirror * facet.reflected + schlick(lobes.metal, lobes.metal_share, cosine) + beyond_schlick(lobes, cosine);
+        if (lobes.smooth()) weights.reflected = lobes.mirror * facet.reflected + schlick(lobes.metal, lobes.metal_share, cosine) + beyond_tables(lobes, cosine);
         if (smooth_facets(lobes).refracts) weights.refracted = lobes.refraction * facet.through;
     } else {
-        if (lobes.smooth()) weights.reflected = schlick(lobes.highlight, lobes.coverage, cosine) + beyond_schlick(lobes, cosine);
+        if (lobes.smooth()) weights.reflected = facet_reflectance(lobes, cosine);
         weights.refracted = lobes.refraction;
     }
     if (lobes.has_sheen() && !inside) {
@@ -390,7 +387,7 @@ ChildWeights smooth_weights(const Lobes& lobes, double cosine, double coat_cosin
     if (lobes.coat > 0 && !inside) {
         const auto below = static_cast<float>(1 - coat_reflectance(lobes, coat_cosine));
         weights = {weights.reflected * below, weights.refracted * below};
-        if (lobes.coat_is_smooth()) weights.reflected += schlick(gray(coat_f0), 1, coat_cosine) * lobes.coat;
+        if (lobes.coat_is_smooth()) weights.reflected += gray(static_cast<float>(fresnel_dielectric(coat_cosine, coat_ior)) * lobes.coat);
     }
     return weights;
 }

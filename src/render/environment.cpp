@@ -73,22 +73,22 @@ Rgb reflect_environment(const Environment& environment, const Lobes& lobes, Vec3
     Rgb result = lobes.ambient_diffuse * irradiance;
     if (lobes.layered()) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
-        const SplitSum sum = split_sum(lobes.sums, cosine);
+        const LayerShare layer = at_cosine(lobes.layer[inside], cosine);
         const float blurred = 1 - lobes.mirror_share;
         // The layer lets in what neither the mirrored ray nor the blurred reflection takes.
         const float mirrored_share = layer_mirrors(lobes, cosine, inside) * lobes.mirror_share;
-        result *= gray(1 - mirrored_share - (lobes.layer_f0 * sum.scale + lobes.layer_f90 * sum.bias) * blurred);
-        result += lobes.multiple * irradiance * (static_cast<float>(sum.missing()) * blurred);
-        if (blurred > 0 && !is_black(lobes.ambient_specular)) {
-            Rgb reflectance = lobes.ambient_specular * sum.scale + gray(lobes.coverage * sum.bias);
-            if (lobes.film > 0) reflectance += beyond_schlick(lobes, cosine) * (sum.scale + sum.bias);
+        result *= gray(1 - mirrored_share - layer.kept * blurred);
+        result += lobes.multiple * irradiance * (layer.missing * blurred);
+        if (blurred > 0 && lobes.ambient_specular > 0) {
+            Rgb reflectance = tabled_reflectance(lobes, cosine);
+            if (lobes.film > 0 || lobes.conductor > 0) reflectance += beyond_tables(lobes, cosine) * (1 - layer.missing);
             const Vec3 mirrored = normal * (2 * dot(normal, to_viewer)) - to_viewer;
-            result += reflectance * blurred * environment.blurred(mirrored, lobes.roughness);
+            result += reflectance * (lobes.ambient_specular * blurred) * environment.blurred(mirrored, lobes.roughness);
         }
     }
     if (lobes.has_sheen() && !inside) {
         const double cosine = std::clamp(dot(normal, to_viewer), 0.0, 1.0);
-        const auto sent = static_cast<float>(std::min(1.0, sheen_sum(lobes.sheen_sums, cosine)));
+        const auto sent = static_cast<float>(std::min(1.0f, at_cosine(lobes.sheen_sums, cosine)));
         result = result * (1 - lobes.sheen_most * sent) + lobes.sheen * irradiance * sent;
     }
     if (lobes.coat > 0 && !inside) {

@@ -5,12 +5,8 @@ namespace crescente::render {
 Rgb schlick(Rgb f0, float f90, double cosine) { return f0 + (gray(f90) - f0) * static_cast<float>(fifth_power(1 - cosine)); }
 
 double fresnel_dielectric(double cosine, double eta) {
-    const double sin2 = (1 - cosine * cosine) / (eta * eta);
-    if (sin2 >= 1) return 1;
-    const double transmitted = std::sqrt(1 - sin2);
-    const double parallel = (eta * cosine - transmitted) / (eta * cosine + transmitted);
-    const double perpendicular = (cosine - eta * transmitted) / (cosine + eta * transmitted);
-    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+    const double eta2 = eta * eta;
+    return eta < 1 && eta2 - 1.0 + cosine * cosine <= 0 ? 1 : fresnel_refracting(cosine, eta2);
 }
 
 double fresnel_conductor(double cosine, double eta, double k) {

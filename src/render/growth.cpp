@@ -266,7 +266,7 @@ void Growth::add_light(PointLanes& p, std::size_t l) const {
     if (!p.lit) return;
     Lanes radiance[3]{};
     if (const unsigned physical = p.lit & p.physical) {
-        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.view.layer_f0, p.view.layer_f90, p.cosine);
+        const LayerAt<Lanes> layer = layer_at(p.lobes, physical & p.layered, p.cosine);
         reflect_physical(p.view, p.cosine, dot(p.viewer, p.reach.to_light), layer, light.makes_highlights(), radiance);
     }
     for (unsigned rest = p.lit & ~p.physical; rest; rest &= rest - 1) {

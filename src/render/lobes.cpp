@@ -74,33 +74,93 @@ RoughGlass rough_glass(double alpha, double ior) {
 
 Rgb least_of(Rgb color, float bound) { return {std::min(color.r, bound), std::min(color.g, bound), std::min(color.b, bound)}; }
 
-// The mean over all light that meets the surface, each direction by its cosine, of what it reflects under a thin film; and the f0 whose Schlick's approximation is at no cosine and in no channel less.
-struct FilmBounds {
-    Rgb mean;
-    float f0 = 0;
-};
-FilmBounds film_bounds(const Lobes& lobes) {
-    constexpr int steps = 24;
-    FilmBounds bounds;
-    for (int i = 0; i < steps; ++i) {
-        const double cosine = std::sqrt((i + 0.5) / steps), grazing = fifth_power(1 - cosine);
-        const Rgb reflected = thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0);
-        bounds.mean += reflected * (1.0f / steps);
-        bounds.f0 = std::max(bounds.f0, static_cast<float>((double{max_component(reflected)} - grazing) / (1 - grazing)));
-    }
-    return bounds;
+// What facets reflect, at the cosines of the tables.
+template <class Law>
+CosineTable<float> tabled_law(const Law& law) {
+    CosineTable<float> values;
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(law(tabled_cosine(i)));
+    return values;
 }
 
-// sums_of: of the facets, by the material's roughness and its stretch. whole: of the material without textures, null if this is it.
+CosineTable<float> dielectric_rise(double ior) {
+    return tabled_law([rise = fresnel_rise(ior)](double cosine) { return rise.at(cosine); });
+}
+
+CosineTable<float> coat_reflectances(const FacetShares& shares) {
+    return reflectance(shares, tabled_law([](double cosine) { return fresnel_dielectric(cosine, coat_ior); }));
+}
+
+// What a surface under a thin film reflects: the mean over all light that meets it, each direction by its cosine, and at each cosine the most of the channels.
+struct UnderFilm {
+    Rgb mean;
+    CosineTable<float> most{};
+};
+UnderFilm under_film(const Lobes& lobes) {
+    std::array<CosineTable<float>, 3> channels;
+    UnderFilm film;
+    for (std::size_t i = 0; i < film.most.size(); ++i) {
+        const Rgb reflected = thin_film_reflectance(tabled_cosine(i), lobes.film_ior, lobes.film_thickness, lobes.film_f0);
+        for (int c = 0; c < 3; ++c) channels[static_cast<std::size_t>(c)][i] = reflected[c];
+        film.most[i] = max_component(reflected);
+    }
+    film.mean = {static_cast<float>(mean_over_light(channels[0])), static_cast<float>(mean_over_light(channels[1])), static_cast<float>(mean_over_light(channels[2]))};
+    return film;
+}
+
+// From one side, of the layer of what lets light through.
+float kept_by_glass(const Lobes& lobes, std::size_t i, std::size_t side) {
+    const RoughGlass& glass = lobes.glass;
+    if (glass.density[side] == 0 || std::abs(lobes.ior - 1) < least_bend) return max_component(glass_interface(lobes, tabled_cosine(i), side == 0 ? lobes.ior : 1 / lobes.ior).reflected);
+    // Where it rises as steeply as towards total reflection, no less than at any cosine up to the next of the table: nothing is gained by interpolation.
+    float most = 0;
+    for (std::size_t k = i - (i > 0); k < std::min(i + 1 + side, glass.sums[side].size()); ++k) {
+        const SplitSum& sum = glass.sums[side][k];
+        if (side == 1 || k == i) most = std::max(most, sum.scale + static_cast<float>(sum.missing()) * (1 - glass.through[side]));
+    }
+    return most;
+}
+
+void set_gives_back(Lobes& lobes) {
+    const auto give_back = [&](std::size_t side, double reaches) { lobes.layer_gives_back[side] = reaches > 0 ? static_cast<float>(1 / reaches) : 0; };
+    CosineTable<float> outside, inside, below_coat;
+    for (std::size_t i = 0; i < outside.size(); ++i) {
+        const double cosine = tabled_cosine(i), above = (1 - sheen_reflectance(lobes, cosine)) * (1 - coat_reflectance(lobes, cosine));
+        outside[i] = 1 - lobes.layer[0][i].kept, inside[i] = 1 - lobes.layer[1][i].kept, below_coat[i] = outside[i] * static_cast<float>(above);
+    }
+    give_back(0, mean_over_light(below_coat));
+    // Of an interface that is not asked of a table, what is not in the steps of one: as much passes from inside as from outside, but for total reflection.
+    const bool by_interface = lobes.transmits() && lobes.glass.density[1] == 0;
+    give_back(1, by_interface ? mean_over_light(outside) / (lobes.ior * lobes.ior) : mean_over_light(inside));
+}
+
+// film: reflectance of the surface if all of it is under its thin film.
+void set_layer(Lobes& lobes, const CosineTable<float>& film) {
+    const bool lets_in = !is_black(lobes.diffuse);
+    const auto kept = [&](float whole, float rise) { return lobes.layer_f0 * (whole - rise) + lobes.layer_f90 * rise; };
+    for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t i = 0; i < film.size(); ++i) {
+            LayerShare& share = lobes.layer[side][i];
+            share.missing = static_cast<float>(lobes.sums[i].missing());
+            if (!lets_in) continue;
+            if (lobes.transmits()) share.kept = kept_by_glass(lobes, i, side);
+            else share.kept = between(kept(lobes.sums[i].whole(), lobes.rise[i]), film[i], lobes.film);
+            share.kept = std::clamp(share.kept, 0.0f, 1.0f);
+        }
+    }
+    set_gives_back(lobes);
+    if (!lets_in || !lobes.grained() || lobes.transmits()) return;
+    for (std::size_t i = 0; i < film.size(); ++i) lobes.layer_lean[i] = kept(lobes.lean[i].whole(), lobes.rise_lean[i]) * (1 - lobes.film);
+}
+
+// sums_of: of facets, by their roughness and stretch. whole: of the material without textures, null if this is it.
 template <class SumsOf>
 Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const Lobes* whole) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
     const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
-    const double r0 = (m.ior - 1) / (m.ior + 1);
+    const double r0 = (m.ior - 1) / (m.ior + 1);  // its square is the reflectance
     Lobes lobes;
     lobes.emission = lobes.shining = m.emissive * opacity;
     lobes.catcher = m.catcher;
-    lobes.coverage = opacity;
     const Rgb diffuse = m.base_color * (dielectric * (1 - static_cast<float>(m.transmission)) * opacity);
     lobes.diffuse = diffuse * static_cast<float>(1 / pi);
     lobes.ambient_diffuse = diffuse;
@@ -109,37 +169,46 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
     lobes.albedo = conductor ? mix(m.base_color, metal_f0, metallic) : m.base_color;
     const Rgb layer_f0 = least_of(m.specular_color * static_cast<float>(r0 * r0), 1) * static_cast<float>(m.specular);
     lobes.layer_f0 = std::min(max_component(layer_f0), highest_f0);
-    lobes.layer_f90 = static_cast<float>(m.specular);
+    lobes.layer_f90 = static_cast<float>(m.specular), lobes.layer_ior = metallic < 1 ? m.ior : 1;
     const Rgb f0 = mix(layer_f0, metal_f0, metallic) * opacity;
     lobes.coverage = (lobes.layer_f90 + (1 - lobes.layer_f90) * metallic) * opacity;
+    lobes.metal_share = metallic * opacity, lobes.metal = metal_f0 * lobes.metal_share;
     lobes.roughness = static_cast<float>(m.roughness);
     lobes.alpha = lobes.alpha_along = std::max(smoothest_alpha, lobes.roughness * lobes.roughness);
     if (m.anisotropy > 0) {
         lobes.alpha_along = lobes.alpha + (1 - lobes.alpha) * static_cast<float>(m.anisotropy * m.anisotropy);
         lobes.roughness = std::sqrt(std::sqrt(lobes.alpha * lobes.alpha_along));
-        const GrainSums sums = sums_of.with_grain(lobes.alpha_along, lobes.alpha);
-        lobes.sums = sums.mean, lobes.lean = sums.lean;
+    }
+    if (whole && lobes.alpha == whole->alpha && lobes.alpha_along == whole->alpha_along) {
+        lobes.sums = whole->sums, lobes.rise = whole->rise, lobes.lean = whole->lean, lobes.rise_lean = whole->rise_lean;
+    } else if (lobes.grained()) {
+        const GrainSums facets = sums_of.with_grain(lobes.alpha_along, lobes.alpha);
+        const CosineTable<float> rise = dielectric_rise(m.ior);
+        lobes.sums = facets.mean.sums, lobes.rise = reflectance(facets.mean.shares, rise);
+        lobes.lean = facets.lean.sums, lobes.rise_lean = reflectance(facets.lean.shares, rise);
     } else {
-        lobes.sums = sums_of(lobes.alpha);
+        const FacetSums facets = sums_of(lobes.alpha);
+        lobes.sums = facets.sums, lobes.rise = reflectance(facets.shares, dielectric_rise(m.ior));
     }
     if (m.iridescence > 0) {
         lobes.film = static_cast<float>(m.iridescence), lobes.film_ior = static_cast<float>(m.iridescence_ior), lobes.film_thickness = static_cast<float>(m.iridescence_thickness);
         lobes.film_f0 = mix(layer_f0, metal_f0, metallic), lobes.film_coverage = opacity;
     }
-    const FilmBounds film = lobes.film > 0 ? film_bounds(lobes) : FilmBounds{};
-    if (lobes.film > 0) lobes.layer_f0 = std::min(std::max(lobes.layer_f0, film.f0), highest_f0), lobes.layer_f90 = 1;
+    const UnderFilm film = lobes.film > 0 ? under_film(lobes) : UnderFilm{};
     if (!is_black(m.sheen_color)) {
         lobes.sheen = m.sheen_color * opacity;
         lobes.sheen_most = max_component(lobes.sheen);
         lobes.sheen_alpha = std::max(least_sheen_alpha, static_cast<float>(m.sheen_roughness * m.sheen_roughness));
-        lobes.sheen_sums = sums_of.of_sheen(lobes.sheen_alpha);
+        const bool same = whole && whole->has_sheen() && lobes.sheen_alpha == whole->sheen_alpha;
+        lobes.sheen_sums = same ? whole->sheen_sums : sums_of.of_sheen(lobes.sheen_alpha);
     }
     if (conductor) lobes.eta = m.eta, lobes.k = m.k, lobes.conductor_f0 = metal_f0, lobes.conductor = metallic * opacity;
     if (m.clearcoat > 0) {
         lobes.coat = static_cast<float>(m.clearcoat) * opacity;
         lobes.coat_alpha = std::max(smoothest_alpha, static_cast<float>(m.clearcoat_roughness * m.clearcoat_roughness));
         lobes.coat_mirror_share = mirror_share_of(m.clearcoat_roughness);
-        lobes.coat_sums = sums_of(lobes.coat_alpha);
+        const bool same = whole && whole->coat > 0 && lobes.coat_alpha == whole->coat_alpha;
+        lobes.coat_sums = same ? whole->coat_sums : coat_reflectances(sums_of(lobes.coat_alpha).shares);
     }
     lobes.highlight = f0;
     lobes.highlight_lobe = HighlightLobe::ggx;
@@ -154,8 +223,6 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         lobes.fresnel = Fresnel::dielectric;
         lobes.mirror = gray(dielectric * opacity);
         lobes.mirror_share = 1;
-        lobes.metal_share = metallic * opacity;
-        lobes.metal = metal_f0 * lobes.metal_share;
         lobes.refraction = m.base_color * (transmission * opacity);
         lobes.straight = gray(1 - opacity);
         lobes.ior = m.ior;
@@ -167,13 +234,15 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         else if (!whole) lobes.glass = rough_glass(lobes.alpha, m.ior);
         else if (whole->alpha == lobes.alpha && whole->ior == lobes.ior) lobes.glass = whole->glass;
     } else {
-        lobes.fresnel = Fresnel::schlick;
+        lobes.fresnel = Fresnel::facets;
         lobes.mirror_share = mirror_share_of(lobes.roughness);
         if (lobes.mirror_share > 0) lobes.mirror = f0;
-        lobes.ambient_specular = f0;
+        lobes.ambient_specular = 1;
         lobes.refraction = gray(1 - opacity);
         lobes.one_sided = !m.double_sided;
     }
+    const bool film_matters = lobes.film > 0 && !is_black(lobes.diffuse);
+    set_layer(lobes, film_matters ? reflectance(lobes.grained() ? sums_of.with_grain(lobes.alpha_along, lobes.alpha).mean.shares : sums_of(lobes.alpha).shares, film.most) : CosineTable<float>{});
     // Light through a pane loses about one Fresnel reflection at each crossing.
     lobes.shadow_filter = m.base_color * (transmission * opacity * static_cast<float>(1 - r0 * r0)) + gray(1 - opacity);
     return lobes;
@@ -183,10 +252,10 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
 
 std::vector<Lobes> compile(std::span<const scene::Material> materials) {
     struct {
-        std::map<float, SplitSums> known;  // by alpha: many materials have the same
-        const SplitSums& operator()(float alpha) {
+        std::map<float, FacetSums> known;  // by alpha: many materials have the same
+        const FacetSums& operator()(float alpha) {
             const auto [sums, unknown] = known.try_emplace(alpha);
-            if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_split_sums() : split_sums(alpha);
+            if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_facet_sums() : facet_sums(alpha);
             return sums->second;
         }
         static GrainSums with_grain(float along, float across) { return grain_sums(along, across); }
@@ -203,17 +272,10 @@ std::vector<Lobes> compile(std::span<const scene::Material> materials) {
 Lobes compile(const scene::Material& material, const Lobes& whole) {
     if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
     struct {
-        const Lobes& whole;
-        SplitSums operator()(float alpha) const {
-            if (alpha == whole.alpha && !whole.grained()) return whole.sums;
-            return alpha <= smoothest_alpha ? smooth_split_sums() : tabled_split_sums(alpha);
-        }
-        GrainSums with_grain(float along, float across) const {
-            if (along == whole.alpha_along && across == whole.alpha) return {whole.sums, whole.lean};
-            return tabled_grain_sums(along, across);
-        }
-        SheenSums of_sheen(float alpha) const { return alpha == whole.sheen_alpha && whole.has_sheen() ? whole.sheen_sums : tabled_sheen_sums(alpha); }
-    } sums_of{whole};
+        FacetSums operator()(float alpha) const { return alpha <= smoothest_alpha ? smooth_facet_sums() : tabled_facet_sums(alpha); }
+        static GrainSums with_grain(float along, float across) { return tabled_grain_sums(along, across); }
+        static SheenSums of_sheen(float alpha) { return tabled_sheen_sums(alpha); }
+    } sums_of;
     return compile_physical(std::get<scene::PhysicalMaterial>(material.model), sums_of, &whole);
 }
 
@@ -238,24 +300,46 @@ Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light
 }
 
 double coat_reflectance(const Lobes& lobes, double cosine) {
-    if (lobes.coat == 0) return 0;
-    const SplitSum sum = split_sum(lobes.coat_sums, cosine);
-    return lobes.coat * (double(coat_f0) * sum.scale + sum.bias);
+    return lobes.coat > 0 ? lobes.coat * double{at_cosine(lobes.coat_sums, cosine)} : 0;
 }
 
 double sheen_reflectance(const Lobes& lobes, double cosine) {
-    return lobes.has_sheen() ? lobes.sheen_most * std::min(1.0, sheen_sum(lobes.sheen_sums, cosine)) : 0;
+    return lobes.has_sheen() ? lobes.sheen_most * std::min(1.0, double{at_cosine(lobes.sheen_sums, cosine)}) : 0;
 }
 
-Rgb beyond_schlick(const Lobes& lobes, double cosine) {
+namespace {
+
+Rgb not_less_than_black(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
+
+// Without a film, and with metals as their color says. Of an index over 2 + sqrt(3) and less f0 than it says, the sum may be less than nothing.
+Rgb bare_facet(const Lobes& lobes, double cosine) {
+    const Rgb f0 = lobes.highlight - lobes.metal;
+    const Rgb layer = f0 + (gray(lobes.coverage - lobes.metal_share) - f0) * static_cast<float>(fresnel_rise(lobes.layer_ior).at(cosine));
+    return not_less_than_black(schlick(lobes.metal, lobes.metal_share, cosine) + layer);
+}
+
+}  // namespace
+
+Rgb beyond_tables(const Lobes& lobes, double cosine) {
     Rgb more;
     if (lobes.conductor > 0) more = (fresnel_conductor(cosine, lobes.eta, lobes.k) - schlick(lobes.conductor_f0, 1, cosine)) * lobes.conductor;
     if (lobes.film > 0 && !lobes.transmits()) {
-        const Rgb bare = schlick(lobes.highlight, lobes.coverage, cosine) + more;
         const Rgb under_film = thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0) * lobes.film_coverage;
-        more += (under_film + gray(1e-6f) - bare) * lobes.film;  // a little more, so that rounding does not make their sum less than nothing
+        more += (under_film - (bare_facet(lobes, cosine) + more)) * lobes.film;
     }
     return more;
+}
+
+Rgb facet_reflectance(const Lobes& lobes, double cosine) {
+    const Rgb bare = bare_facet(lobes, cosine);
+    return lobes.conductor > 0 || lobes.film > 0 ? not_less_than_black(bare + beyond_tables(lobes, cosine)) : bare;
+}
+
+Rgb tabled_reflectance(const Lobes& lobes, double cosine) {
+    const SplitSum sum = at_cosine(lobes.sums, cosine);
+    const float rise = at_cosine(lobes.rise, cosine);
+    const Rgb f0 = lobes.highlight - lobes.metal;
+    return not_less_than_black(lobes.metal * sum.scale + f0 * (sum.whole() - rise) + gray(lobes.metal_share * sum.bias + (lobes.coverage - lobes.metal_share) * rise));
 }
 
 Interface glass_interface(const Lobes& lobes, double cosine, double eta) {
@@ -272,13 +356,14 @@ Interface glass_interface(const Lobes& lobes, double cosine, double eta) {
 }
 
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside) {
-    if (lobes.fresnel != Fresnel::dielectric) return schlick(gray(lobes.layer_f0), lobes.layer_f90, cosine).r;
-    return max_component(glass_interface(lobes, cosine, inside ? 1 / lobes.ior : lobes.ior).reflected);
+    if (lobes.fresnel == Fresnel::dielectric) return max_component(glass_interface(lobes, cosine, inside ? 1 / lobes.ior : lobes.ior).reflected);
+    const float bare = between(lobes.layer_f0, lobes.layer_f90, std::max(0.0f, static_cast<float>(fresnel_rise(lobes.layer_ior).at(cosine))));
+    return lobes.film > 0 ? between(bare, max_component(thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0)), lobes.film) : bare;
 }
 
 bool send_same_rays(const Lobes& a, const Lobes& b) {
     return a.mirror == b.mirror && a.refraction == b.refraction && a.straight == b.straight && a.ior == b.ior && a.fresnel == b.fresnel &&
-           a.metal == b.metal && a.metal_share == b.metal_share && a.coverage == b.coverage && a.mirror_share == b.mirror_share &&
+           a.metal == b.metal && a.metal_share == b.metal_share && a.coverage == b.coverage && a.layer_ior == b.layer_ior && a.mirror_share == b.mirror_share &&
            a.eta == b.eta && a.k == b.k && a.conductor == b.conductor && a.coat == b.coat && a.coat_alpha == b.coat_alpha && a.sheen_most == b.sheen_most &&
            a.sheen_alpha == b.sheen_alpha && a.film == b.film && a.film_ior == b.film_ior && a.film_thickness == b.film_thickness && a.film_f0 == b.film_f0 &&
            a.glass_f0 == b.glass_f0 && a.glass_f90 == b.glass_f90 && a.dispersion == b.dispersion;
@@ -296,11 +381,11 @@ ChildWeights child_weights(const Lobes& lobes, double cosine, double coat_cosine
         case Fresnel::dielectric: {
             const Interface facet = glass_interface(lobes, cosine, eta);
             weights = {lobes.mirror * facet.reflected, lobes.refraction * facet.through};
-            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine) + beyond_schlick(lobes, cosine);
+            if (lobes.metal_share > 0) weights.reflected += schlick(lobes.metal, lobes.metal_share, cosine) + beyond_tables(lobes, cosine);
             break;
         }
-        case Fresnel::schlick:
-            if (!is_black(lobes.mirror)) weights.reflected = (schlick(lobes.mirror, lobes.coverage, cosine) + beyond_schlick(lobes, cosine)) * lobes.mirror_share;
+        case Fresnel::facets:
+            if (!is_black(lobes.mirror)) weights.reflected = facet_reflectance(lobes, cosine) * lobes.mirror_share;
             break;
     }
     if (lobes.has_sheen() && !inside) {
@@ -309,7 +394,7 @@ ChildWeights child_weights(const Lobes& lobes, double cosine, double coat_cosine
     }
     if (lobes.coat > 0 && !inside) {
         const auto below = static_cast<float>(1 - coat_reflectance(lobes, coat_cosine));
-        weights = {weights.reflected * below + schlick(gray(coat_f0), 1, coat_cosine) * (lobes.coat * lobes.coat_mirror_share), weights.refracted * below};
+        weights = {weights.reflected * below + gray(static_cast<float>(fresnel_dielectric(coat_cosine, coat_ior)) * lobes.coat * lobes.coat_mirror_share), weights.refracted * below};
     }
     return weights;
 }

@@ -21,9 +21,10 @@ enum class HighlightLobe : std::uint8_t { none, phong, blinn, ggx };
 enum class Fresnel : std::uint8_t {
     none,        // weights hold at every angle
     dielectric,  // mirror and refraction weights are multiplied by F and 1 - F of the exact equations, unpolarised
-    schlick,     // mirror weight is f0 rising to 1 at grazing angles (Schlick 1994)
+    facets,      // mirror weight is what facets reflect (facet_reflectance); without it: black
 };
 
+inline constexpr double least_bend = 1e-3;             // of the index of what lets light through: below, it goes straight through even a rough surface
 inline constexpr float smoothest_alpha = 0.002f;  // of ggx; what is smoother has highlights of this size, and else is a perfect mirror
 
 // What a rough surface that light goes through loses between its facets, and how that comes back after all: from all over, on both sides (Kulla and Conty 2017,
@@ -37,6 +38,17 @@ struct RoughGlass {
     bool operator==(const RoughGlass&) const = default;
 };
 
+// What the facets of a physical material do to all light of one direction.
+struct LayerShare {
+    float kept = 0;     // does not reach the diffuse lobe: reflected by the layer over it; 0 without a diffuse lobe
+    float missing = 0;  // is lost between facets, if these reflect all
+
+    LayerShare operator+(LayerShare o) const { return {kept + o.kept, missing + o.missing}; }
+    LayerShare operator-(LayerShare o) const { return {kept - o.kept, missing - o.missing}; }
+    LayerShare operator*(float f) const { return {kept * f, missing * f}; }
+    bool operator==(const LayerShare&) const = default;
+};
+
 struct Lobes {
     Rgb emission;            // radiance, whatever the light
     Rgb shining;             // of that what lights others: all but the ambient term of classic materials
@@ -46,11 +58,19 @@ struct Lobes {
     float exponent = 0;      // phong, blinn
     float alpha = 1;         // ggx roughness
     float alpha_along = 1;   // the same along the grain; not less than alpha, and the same without a grain
-    float coverage = 1;      // what Schlick's terms rise to at grazing angles
-    float layer_f0 = 0;      // of the dielectric layer over the diffuse lobe of physical materials: the most of its channels
+    float coverage = 1;      // ggx: what the highlight's weight rises to at grazing angles
+    Rgb metal;               // what of f0 is a metal's, rising to metal_share after Schlick (1994)
+    float metal_share = 0;
+    double layer_ior = 1;    // of the dielectric beside the metal, which says how the rest of f0 rises (FresnelRise)
+    float layer_f0 = 0;      // of that dielectric, the layer over the diffuse lobe: the most of its channels
     float layer_f90 = 1;
-    SplitSums sums;          // physical: reflectance of the whole ggx lobe
-    SplitSums lean;          // with a grain: what is to be added along it, and taken away across (GrainSums)
+    std::array<CosineTable<LayerShare>, 2> layer{};  // of light from the outer side, and from the inner
+    std::array<float, 2> layer_gives_back{};         // of either side: 1 over the mean of all light that reaches the diffuse lobe, through coat and sheen too
+    CosineTable<float> layer_lean{};                 // with a grain: of what is kept, to be added along it, and taken away across (GrainSums)
+    SplitSums sums{};        // physical: reflectance of the whole ggx lobe
+    CosineTable<float> rise{};       // of the same facets, if these reflect what a dielectric of layer_ior rises by
+    SplitSums lean{};                // with a grain, of both
+    CosineTable<float> rise_lean{};
     Rgb multiple;            // share of what is missing from those that comes back after more reflections between facets
     float multiple_density = 0;  // so much of it to each direction (1/sr), times what is missing there
     MissingCells multiple_cells{};
@@ -60,7 +80,7 @@ struct Lobes {
     float coat = 0;             // share of a clear coat over all else; seen from outside
     float coat_alpha = smoothest_alpha;
     float coat_mirror_share = 1;
-    SplitSums coat_sums{};
+    CosineTable<float> coat_sums{};  // its reflectance for all light of a direction, whole
     Rgb sheen;                  // of cloth's fibres, over all but the coat
     float sheen_most = 0;       // of its channels
     float sheen_alpha = 1;
@@ -75,17 +95,15 @@ struct Lobes {
     float dispersion = 0;       // 20 over Abbe's number
     Vec3 tangent;               // at one place of a surface with a grain: where it runs; any length; zero: any direction
     Vec3 coat_normal;           // at one place: of the coat, towards the viewer, unit; zero: that of what is below
-    Rgb mirror;              // weight of the reflected ray; with schlick: f0
-    Rgb metal;               // dielectric: f0 of a metal beside it, rising to metal_share (Schlick)
-    float metal_share = 0;
-    float mirror_share = 0;  // schlick: how much of the reflection the mirror ray carries; the rest is the environment's blur
+    Rgb mirror;              // weight of the reflected ray; with facets: f0
+    float mirror_share = 0;  // facets: how much of the reflection the mirror ray carries; the rest is the environment's blur
     Rgb refraction;          // weight of the refracted ray
     Rgb straight;            // weight of a ray that passes on beside the refracted one: what the coverage leaves
     double ior = 1;
     Rgb attenuation;         // 1/m inside
     Fresnel fresnel = Fresnel::none;
     Rgb ambient_diffuse;     // weight of the environment's irradiance / pi
-    Rgb ambient_specular;    // f0 of the environment's blurred reflection; black: none
+    float ambient_specular = 0;  // share of the environment's blurred reflection that the facets reflect
     float roughness = 0;     // of that blur
     Rgb shadow_filter;       // what passes a crossing in a shadow ray
     bool one_sided = false;  // rays do not meet the back: glTF culls it. Never what refracts: rays must leave a body again
@@ -120,7 +138,7 @@ float layer_mirrors(const Lobes& lobes, double cosine, bool inside);
 // strength. Both are on the side of the shading normal; cosine = dot(normal, to_light) > 0.
 Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, double cosine, bool with_highlight);
 
-inline constexpr float coat_f0 = 0.04f;  // index 1.5
+inline constexpr double coat_ior = 1.5;
 
 // What a clear coat takes of the light that would reach what is below, at a cosine (0 to 1) outside of it.
 double coat_reflectance(const Lobes& lobes, double cosine);
@@ -128,8 +146,15 @@ double coat_reflectance(const Lobes& lobes, double cosine);
 // The same of the fibres of cloth, which take as much of all colours.
 double sheen_reflectance(const Lobes& lobes, double cosine);
 
-// What is to be added to Schlick's approximation for the facets of a metal given by its complex index, and of what is under a thin film and lets no light through.
-Rgb beyond_schlick(const Lobes& lobes, double cosine);
+// What a facet of a physical material that lets no light through reflects, at a cosine to its normal: Fresnel's equations for dielectrics and for metals of a complex index, Schlick's approximation for
+// those that have a color alone (glTF 2.0, appendix B).
+Rgb facet_reflectance(const Lobes& lobes, double cosine);
+
+// Of that, what is not in the tables of the whole surface's reflectance: by how much metals of a complex index, and what is under a thin film and lets no light through, are off the others.
+Rgb beyond_tables(const Lobes& lobes, double cosine);
+
+// What the whole surface reflects of all light of a direction at a cosine, but for that.
+Rgb tabled_reflectance(const Lobes& lobes, double cosine);
 
 // What a facet of the interface of a dielectric that light goes through reflects, and the share that it lets through; of either side, eta: index behind over index in front.
 struct Interface {

@@ -23,8 +23,6 @@ double hidden(double cosine, double alpha) {
     return std::exp(cosine < 0.5 ? fitted(cosine, alpha) : 2 * fitted(0.5, alpha) - fitted(1 - cosine, alpha));
 }
 
-constexpr double last = std::tuple_size_v<SheenSums> - 1;
-
 }  // namespace
 
 double sheen_reflected(double alpha, double n_v, double n_l, double n_h) {
@@ -43,7 +41,7 @@ SheenSums sheen_sums(double alpha) {
     }
     SheenSums sums;
     for (std::size_t k = 0; k < sums.size(); ++k) {
-        const double root = static_cast<double>(k) / last, n_v = std::max(1e-4, root * root), sin_v = std::sqrt(1 - n_v * n_v), hides_v = hidden(n_v, alpha);
+        const double n_v = std::max(1e-4, tabled_cosine(k)), sin_v = std::sqrt(1 - n_v * n_v), hides_v = hidden(n_v, alpha);
         double sum = 0;
         for (std::size_t i = 0; i < heights; ++i) {
             const double n_l = cosines[i], sin_l = std::sqrt(1 - n_l * n_l);
@@ -62,27 +60,15 @@ SheenSums sheen_sums(double alpha) {
 
 SheenSums tabled_sheen_sums(double alpha) {
     constexpr std::size_t steps = 32;
-    static const std::vector<SheenSums> table = [] {
-        std::vector<SheenSums> rows;
+    static const std::vector<SheenSums> rows = [] {
+        std::vector<SheenSums> all;
         for (std::size_t i = 0; i <= steps; ++i) {
             const double roughness = static_cast<double>(i) / steps;
-            rows.push_back(sheen_sums(std::max(double{least_sheen_alpha}, roughness * roughness)));
+            all.push_back(sheen_sums(std::max(double{least_sheen_alpha}, roughness * roughness)));
         }
-        return rows;
+        return all;
     }();
-    const double place = std::sqrt(std::clamp(alpha, 0.0, 1.0)) * steps;
-    const auto i = std::min(static_cast<std::size_t>(place), steps - 1);
-    const auto t = static_cast<float>(place - static_cast<double>(i));
-    SheenSums sums;
-    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] = table[i][k] + (table[i + 1][k] - table[i][k]) * t;
-    return sums;
-}
-
-double sheen_sum(const SheenSums& sums, double cosine) {
-    const double place = last * std::sqrt(std::clamp(cosine, 0.0, 1.0));
-    const auto i = std::min(static_cast<std::size_t>(place), sums.size() - 2);
-    const auto t = static_cast<float>(place - static_cast<double>(i));
-    return sums[i] + (sums[i + 1] - sums[i]) * t;
+    return row_at(rows, std::sqrt(std::clamp(alpha, 0.0, 1.0)));
 }
 
 }  // namespace crescente::render

@@ -2,7 +2,7 @@
 // KHR_materials_sheen takes. Directions by cosines to the normal, from 0 to 1.
 #pragma once
 
-#include <array>
+#include "render/cosine_table.h"
 
 namespace crescente::render {
 
@@ -12,12 +12,10 @@ inline constexpr float least_sheen_alpha = 0.01f;
 // Upright fibres (alpha < 0.06) would give back more than they get: sheen_held keeps it.
 double sheen_reflected(double alpha, double n_v, double n_l, double n_h);
 
-// Reflectance for all the light that comes from, or goes to, one direction, at cosines (i / 24)^2 to the normal.
-using SheenSums = std::array<float, 25>;
+// Reflectance for all the light that comes from, or goes to, one direction.
+using SheenSums = CosineTable<float>;
 SheenSums sheen_sums(double alpha);
 SheenSums tabled_sheen_sums(double alpha);  // from a table over perceptual roughness, for surfaces that are of another everywhere
-
-double sheen_sum(const SheenSums& sums, double cosine);  // by linear interpolation
 
 // What sheen_reflected is to be multiplied by, at both cosines, so that no more than all comes back.
 inline double sheen_held(double sum) { return sum > 1 ? 1 / sum : 1; }

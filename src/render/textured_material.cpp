@@ -175,7 +175,7 @@ Lobes TexturedMaterial::lobes_of(Model model, const TexturePoint& point) const {
     }
     Lobes lobes = compile(scene::Material{"", model, {}}, whole_);
     lobes.ambient_diffuse *= gray(occlusion);
-    lobes.ambient_specular *= gray(occlusion);
+    lobes.ambient_specular *= occlusion;
     return lobes;
 }
 

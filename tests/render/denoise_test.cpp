@@ -17,7 +17,7 @@ Scene room(int samples) {
     b.settings().supersampling = 1, b.settings().tile = 32;
     b.camera().position = {0, 1.2, 5}, b.camera().target = {0, 0.9, 0};
     PhysicalMaterial wall, red, metal, clear;
-    wall.base_color = {0.7f, 0.7f, 0.7f}, wall.roughness = 1, wall.ior = 1;
+    wall.base_color = {0.7f, 0.7f, 0.7f}, wall.roughness = 1;
     red = wall, red.base_color = {0.7f, 0.1f, 0.1f};
     metal.base_color = {0.9f, 0.8f, 0.6f}, metal.metallic = 1, metal.roughness = 0.25;
     clear.transmission = 1, clear.roughness = 0, clear.base_color = {1, 1, 1};

@@ -105,31 +105,20 @@ TEST(Sampled, BothSidesOfAnEmissiveSphere) {
     EXPECT_NEAR(mean.value, expected, 4 * mean.deviation + 4e-3 * expected);
 }
 
-// In a box whose walls shine with e and reflect a share a, every point sees e / (1 - a).
-TEST(Sampled, FurnaceFromInside) {
+// In a box whose walls shine with e and reflect a share a, after `depth` bounces: a point sees e (1 + a + a^2 + ...), since the last vertex of a path still gets the whole light of what shines on it.
+void expect_in_shining_box(int depth, double expected) {
     Build b(16, 16);
     PhysicalMaterial wall = lambert(0.5f);
     wall.emissive = gray(0.5f);
     b.place(box({-1, -1, -1}, {1, 1, 1}), b.material(wall));
     b.scene.camera->position = {0.1, 0.2, 0.3}, b.scene.camera->target = {1, 0.1, 0};
     Scene scene = sampled(b.scene, scene::Level::indirect, 64);
-    scene.settings.depth = 40;
+    scene.settings.depth = depth;
     const Mean mean = mean_of(picture_of(scene));
-    EXPECT_NEAR(mean.value, 1, 4 * mean.deviation + 3e-3);
+    EXPECT_NEAR(mean.value, expected, 4 * mean.deviation + 3e-3);
 }
-
-// The last vertex of a path still gets the whole light of what shines on it: after one bounce e (1 + a + a^2) is there.
-TEST(Sampled, FurnaceOfOneBounce) {
-    Build b(16, 16);
-    PhysicalMaterial wall = lambert(0.5f);
-    wall.emissive = gray(0.5f);
-    b.place(box({-1, -1, -1}, {1, 1, 1}), b.material(wall));
-    b.scene.camera->position = {0.1, 0.2, 0.3}, b.scene.camera->target = {1, 0.1, 0};
-    Scene scene = sampled(b.scene, scene::Level::indirect, 64);
-    scene.settings.depth = 1;
-    const Mean mean = mean_of(picture_of(scene));
-    EXPECT_NEAR(mean.value, 0.875, 4 * mean.deviation + 3e-3);
-}
+TEST(Sampled, FurnaceFromInside) { expect_in_shining_box(40, 1); }
+TEST(Sampled, FurnaceOfOneBounce) { expect_in_shining_box(1, 0.875); }
 
 // A floor under a sheet and an even sky gets of it what the sheet lets through straight: all directions, not those alone that are drawn for the sky.
 TEST(Sampled, SkyThroughASheet) {
