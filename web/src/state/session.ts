@@ -1,0 +1,89 @@
+// The one connection of the page, and what its messages do to the store.
+import { Connection, ConnectionLost, Refused } from '../protocol/socket';
+import type { Incoming, Outgoing, Scene } from '../protocol/messages';
+import { rememberFile } from './recent';
+import { complain } from './notices';
+import { get, set } from './store';
+
+type FrameSink = (data: ArrayBuffer) => void;
+let frameSink: FrameSink | null = null;
+let waitingFrames: ArrayBuffer[] = [];
+
+// Who draws the frames, one at most. Frames that come before there is one wait for it: they are two at most, since none was shown.
+export function drawFramesWith(sink: FrameSink | null): void {
+  frameSink = sink;
+  if (!sink) return;
+  waitingFrames.forEach(sink);
+  waitingFrames = [];
+}
+
+export const connection = new Connection({
+  state(state) {
+    set({ connection: state });
+    if (state !== 'open') return;
+    waitingFrames = [];
+    // The picture fills the window. Told before a model is opened, so that the model is framed for it.
+    connection.send({ view: { width: Math.round(window.innerWidth * devicePixelRatio), height: Math.round(window.innerHeight * devicePixelRatio) } });
+    connection.send({ files: null });
+  },
+  message: receive,
+  frame(data) {
+    if (frameSink) frameSink(data);
+    else waitingFrames.push(data);
+  },
+});
+
+export const send = (message: Outgoing) => connection.send(message);
+
+// The answer, or undefined where it was refused: then the user has been told.
+export async function ask(message: Outgoing): Promise<Incoming | undefined> {
+  try {
+    return await connection.request(message);
+  } catch (error) {
+    if (error instanceof Refused) complain(error.failure);
+    else if (!(error instanceof ConnectionLost)) throw error;
+    return undefined;
+  }
+}
+
+function receive(message: Incoming): void {
+  if (message.welcome) set({ welcome: message.welcome, closedReason: null });
+  if (message.files) set({ files: message.files });
+  if (message.opening) set({ opening: message.opening.file, openFailure: null });
+  if (message.scene) receiveScene(message.scene);
+  if (message.edited) {
+    const { can_undo, can_redo } = message.edited;
+    const scene = get().scene;
+    set({ edited: message.edited, scene: scene && { ...scene, can_undo, can_redo } });
+  }
+  if (message.progress) set({ progress: message.progress });
+  if (message.error && message.id === undefined) {
+    const file = get().opening;
+    if (file) set({ opening: null, openFailure: { file, failure: message.error } });
+    else complain(message.error);
+  }
+  if (message.closed) set({ closedReason: message.closed.reason });
+}
+
+// After `open` and after a reconnect the scene is whole, later only what has changed.
+function receiveScene(news: Partial<Scene> & { opened?: boolean }): void {
+  const { opened, ...members } = news;
+  const old = get().scene;
+  if (opened || !old) {
+    const again = old !== null && old.name === members.name && old.revision === members.revision;
+    const file = get().opening ?? get().file;
+    set({ scene: withDefaults(members) as Scene, opening: null, openFailure: null, file });
+    if (!again) set({ selection: [], hovered: null, light: null, isolated: null, replayed: null, pixel: null, point: null, lastEdit: null, expanded: new Set((members.roots ?? []).map(String)) });
+    if (file) rememberFile(file, members.name ?? file);
+    if (members.name) document.title = `${members.name} – Crescente`;
+  } else {
+    set({ scene: { ...old, ...withDefaults(members) } });
+  }
+}
+
+// Members of objects that are left out have their defaults.
+function withDefaults(members: Partial<Scene>): Partial<Scene> {
+  if (!members.objects) return members;
+  const whole = { name: '', visible: true, shape: null, material: null, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], bounds: null, children: [] };
+  return { ...members, objects: members.objects.map((object) => ({ ...whole, ...object })) };
+}
