@@ -1,16 +1,14 @@
 // Kept views, and the lens.
 import { ActionIcon, Button, Group, Stack, Switch, Text, TextInput } from '@mantine/core';
-import { IconDeviceFloppy, IconPlus, IconRefresh, IconTrash } from '@tabler/icons-react';
+import { IconPlus, IconRefresh, IconTrash } from '@tabler/icons-react';
 import { useState } from 'react';
-import { setCamera } from '../state/edits';
 import { keepCameras, keptCameras, type KeptCamera } from '../state/cameras';
-import { tell } from '../state/notices';
 import { set, useStore } from '../state/store';
 import { theStage } from '../view/current_stage';
 import { NumberBox } from './fields/number_box';
 
 export function CamerasTab() {
-  const model = useStore((s) => s.file ?? s.scene?.name ?? '');
+  const model = useStore((s) => s.scene?.file ?? '');
   const orthographic = useStore((s) => s.orthographic);
   const [cameras, setCameras] = useState(() => keptCameras(model));
   const [name, setName] = useState('');
@@ -28,10 +26,6 @@ export function CamerasTab() {
   const show = ({ camera }: KeptCamera) => {
     theStage()?.navigation.set(camera);
     set({ orthographic: camera.projection === 'orthographic' });
-  };
-  const keepInScene = async () => {
-    const camera = theStage()?.navigation.get();
-    if (camera && (await setCamera(camera))) tell('The scene has this camera now');
   };
   return (
     <div className="scroll">
@@ -64,7 +58,6 @@ export function CamerasTab() {
           <Text size="xs" flex={1}>Vertical angle of view</Text>
           <NumberBox w={92} value={angle} min={1} max={120} unit="°" label="Vertical angle of view" onCommit={(degrees) => (setAngle(degrees), theStage()?.navigation.setFieldOfView(degrees))} />
         </Group>
-        <Button size="xs" variant="default" leftSection={<IconDeviceFloppy size={14} />} onClick={() => void keepInScene()}>Make this the scene's camera</Button>
       </Stack>
     </div>
   );

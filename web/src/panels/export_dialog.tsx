@@ -5,6 +5,7 @@ import { useState } from 'react';
 import { bytes } from '../format';
 import { labelOf } from '../protocol/fields';
 import { cancelExport, fetchFile, startExport } from '../state/exports';
+import { titleOf } from '../state/session';
 import { set, useStore, type ExportItem } from '../state/store';
 import { theStage } from '../view/current_stage';
 
@@ -19,7 +20,7 @@ export function ExportDialog() {
 
 function ExportForm() {
   const welcome = useStore((s) => s.welcome);
-  const name = useStore((s) => s.scene?.name || 'picture');
+  const name = useStore((s) => (s.scene ? titleOf(s.scene) : 'picture'));
   const until = useStore((s) => s.progress?.until ?? String(s.scene?.settings.level ?? 'edges'));
   const exports = useStore((s) => s.exports);
   const [size, setSize] = useState(() => theStage()?.pixels ?? { width: 1920, height: 1080 });

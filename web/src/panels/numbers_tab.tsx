@@ -33,13 +33,12 @@ export function NumbersTab() {
     <div className="scroll">
       <section className="section" data-testid="numbers" data-edit-rays={progress?.edit_rays} data-edit-camera-rays={progress?.edit_camera_rays} data-fresh-rays={progress?.fresh_rays ?? undefined}>
         <Text size="sm" fw={600} component="h3" mb={4}>{lastEdit ? `Last edit: ${lastEdit}` : 'No edit yet'}</Text>
-        {progress && <EditCost edit={progress.edit_rays} fresh={progress.fresh_rays} />}
+        {progress && lastEdit && <EditCost edit={progress.edit_rays} fresh={progress.fresh_rays} />}
       </section>
       {progress && (
         <section className="section">
           <Table verticalSpacing={3} horizontalSpacing={0} withRowBorders={false} className="numbers" fz="xs">
             <Table.Tbody>
-              <Line name="First whole picture after" value={`${(progress.first_picture * 1000).toFixed(0)} ms`} />
               <Line name="Time" value={seconds(progress.seconds)} />
               <Line name="Rays" value={count(progress.rays)} />
               <Line name="Rays a second" value={count(progress.rays_per_second)} />
@@ -74,7 +73,7 @@ function EditCost({ edit, fresh }: { edit: number; fresh: number | null }) {
     <>
       <Text size="xs" className="numbers">{count(edit)} rays traced · a fresh picture takes {count(fresh)}</Text>
       <Progress mt={6} size={8} value={Math.max(share, edit > 0 ? 0.5 : 0)} color="amber" aria-label="Rays of the edit as share of a fresh picture's" />
-      <Text size="xs" c="dimmed" mt={4}>{share < 0.05 ? 'less than 0.1 %' : `${share.toFixed(1)} %`}</Text>
+      <Text size="xs" c="dimmed" mt={4}>{edit === 0 ? 'nothing: what was kept was shaded anew' : share < 0.05 ? 'less than 0.1 %' : `${share.toFixed(1)} %`}</Text>
     </>
   );
 }

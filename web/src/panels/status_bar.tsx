@@ -3,11 +3,13 @@ import { Button, Group, Menu, Progress, Text, Tooltip } from '@mantine/core';
 import { IconChevronDown } from '@tabler/icons-react';
 import { IconPlayerPause, IconPlayerPlay } from '@tabler/icons-react';
 import { bytes, count, seconds } from '../format';
-import { labelOf } from '../protocol/fields';
+import { labelOf, settingsFields } from '../protocol/fields';
 import { ask } from '../state/session';
 import { useStore } from '../state/store';
 import { setPaused } from '../view/shortcuts';
 import { ToolButton } from './tool_button';
+
+const levelByDefault = settingsFields.find((field) => field.name === 'level')?.default;
 
 const levelDocs: Record<string, string> = {
   visible: 'What is seen, in local light',
@@ -21,7 +23,7 @@ const levelDocs: Record<string, string> = {
 export function StatusBar() {
   const progress = useStore((s) => s.progress);
   const levels = useStore((s) => s.welcome?.levels ?? []);
-  const settingsLevel = useStore((s) => String(s.scene?.settings.level ?? 'edges'));
+  const settingsLevel = useStore((s) => String(s.scene?.settings.level ?? levelByDefault));
   const until = progress?.until ?? settingsLevel;
   const state = !progress ? 'starting' : progress.paused ? 'paused' : progress.done ? 'finished' : 'growing';
   const percent = progress ? (progress.done ? 100 : Math.min(progress.fraction * 100, 99.9)) : 0;

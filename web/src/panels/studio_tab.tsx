@@ -4,6 +4,7 @@ import { IconUpload } from '@tabler/icons-react';
 import { environmentFields, labelOf, settingsFields } from '../protocol/fields';
 import { edit, setEnvironmentField, setSetting } from '../state/edits';
 import { chooseEnvironment, uploadEnvironment } from '../state/files';
+import { groundOf, setGround, type Ground } from '../state/ground';
 import { useStore } from '../state/store';
 import { FieldList } from './fields/field_list';
 import { GroupedFields } from './fields/grouped_fields';
@@ -20,15 +21,18 @@ export function StudioTab() {
   const changeSetting = useDrag(setSetting, (field) => `Picture: ${field.replaceAll('_', ' ')}`);
   if (!scene) return null;
   const environment = scene.environment ?? {};
-  const hasImage = Boolean(environment.image) || Boolean(environment.sky);
+  const ground = groundOf(scene);
+  const image = String(environment.image ?? '');
+  const known = environments.find((one) => image !== '' && image.endsWith(one.title ?? one.name));
+  const hasImage = image !== '' || Boolean(environment.sky);
   return (
     <div className="scroll">
       <Stack className="section" gap={9}>
-        <Select label="Studio" placeholder="The scene's own lights" data={studios.map((name) => ({ value: name, label: labelOf(name) }))} value={scene.studio ?? null} onChange={(name) => name && void edit({ studio: name }, `Studio: ${name}`)} data-testid="studio" />
-        {scene.ground !== undefined && (
+        <Select label="Studio" placeholder="Put the model into a studio" data={studios.map((name) => ({ value: name, label: labelOf(name) }))} value={null} onChange={(name) => name && void edit({ studio: name }, `Studio: ${labelOf(name)}`)} data-testid="studio" />
+        {ground !== null && (
           <div>
             <Text size="xs" mb={3}>Ground</Text>
-            <SegmentedControl fullWidth size="xs" aria-label="Ground" value={scene.ground} onChange={(ground) => void edit({ ground }, `Ground: ${ground}`)} data={[{ value: 'solid', label: 'Solid' }, { value: 'catch', label: 'Shadow only' }, { value: 'none', label: 'None' }]} />
+            <SegmentedControl fullWidth size="xs" aria-label="Ground" value={ground} onChange={(next) => void setGround(next as Ground)} data={[{ value: 'solid', label: 'Solid' }, { value: 'catch', label: 'Shadow only' }, { value: 'none', label: 'None' }]} />
           </div>
         )}
         <Group gap={6} wrap="nowrap">
@@ -40,10 +44,10 @@ export function StudioTab() {
       <Stack className="section" gap={9}>
         <Select
           label="Surroundings"
-          data={[{ value: '', label: 'Gradient' }, ...environments.map((one) => ({ value: one.file ?? one.name, label: one.title ?? one.name }))]}
-          value={environments.find((one) => String(environment.image ?? '').endsWith(one.name))?.file ?? ''}
+          data={[{ value: '', label: 'Gradient or sky' }, ...environments.map((one) => ({ value: one.name, label: one.title ?? one.name })), ...(image && !known ? [{ value: image, label: image.slice(image.lastIndexOf('/') + 1) }] : [])]}
+          value={known?.name ?? image}
           allowDeselect={false}
-          onChange={(file) => void chooseEnvironment(file || null)}
+          onChange={(file) => void (file ? chooseEnvironment(file) : edit(setEnvironmentField('image', ''), 'Environment: gradient'))}
         />
         <FileButton accept=".hdr,.exr" onChange={(file) => file && void uploadEnvironment(file)}>
           {(props) => <Button {...props} variant="default" size="xs" leftSection={<IconUpload size={14} />}>Picture of surroundings (.hdr, .exr)</Button>}

@@ -4,7 +4,8 @@ import { IconArrowBackUp, IconArrowForwardUp, IconArrowsMove, IconBinaryTree2, I
 import { redo, undo } from '../state/edits';
 import { copyPicture } from '../state/copy_picture';
 import { startExport } from '../state/exports';
-import { get, set, useStore, type Tool } from '../state/store';
+import { titleOf } from '../state/session';
+import { set, useStore, type Tool } from '../state/store';
 import { theStage } from '../view/current_stage';
 import type { StandardView } from '../view/navigation';
 import { ToolButton } from './tool_button';
@@ -12,7 +13,7 @@ import { ToolButton } from './tool_button';
 const views: [StandardView, string][] = [['front', '1'], ['back', '2'], ['right', '3'], ['left', '4'], ['top', '5'], ['bottom', '6'], ['isometric', '0']];
 
 export function TopBar() {
-  const name = useStore((s) => s.scene?.name || s.file || '');
+  const name = useStore((s) => (s.scene ? titleOf(s.scene) : ''));
   const canUndo = useStore((s) => s.scene?.can_undo ?? false);
   const canRedo = useStore((s) => s.scene?.can_redo ?? false);
   const { tool, snap, orthographic, turntable, leftOpen, rightOpen } = useStore();
@@ -27,7 +28,7 @@ export function TopBar() {
         </Menu.Target>
         <Menu.Dropdown>
           <Menu.Item leftSection={<IconFolderOpen size={16} />} rightSection={<Text size="xs" c="dimmed">Ctrl O</Text>} onClick={() => set({ dialog: 'open' })}>Open…</Menu.Item>
-          <Menu.Item leftSection={<IconDeviceFloppy size={16} />} onClick={() => void startExport({ format: 'json', width: 0, height: 0, level: '' }, `${get().scene?.name ?? 'scene'}.json`, true)}>Save scene (JSON)</Menu.Item>
+          <Menu.Item leftSection={<IconDeviceFloppy size={16} />} onClick={() => void startExport({ format: 'json', width: 0, height: 0, level: '' }, `${name}.json`, true)}>Save scene (JSON)</Menu.Item>
           <Menu.Divider />
           <Menu.Item leftSection={<IconPhotoDown size={16} />} rightSection={<Text size="xs" c="dimmed">Ctrl E</Text>} onClick={() => set({ dialog: 'export' })}>Export picture…</Menu.Item>
           <Menu.Item leftSection={<IconClipboard size={16} />} onClick={() => void copyPicture()}>Copy picture</Menu.Item>
@@ -47,7 +48,7 @@ export function TopBar() {
         </Menu.Target>
         <Menu.Dropdown>
           {views.map(([view, key]) => (
-            <Menu.Item key={view} tt="capitalize" rightSection={<Text size="xs" c="dimmed">{key}</Text>} onClick={() => theStage()?.navigation.look(view)}>{view}</Menu.Item>
+            <Menu.Item key={view} tt="capitalize" rightSection={<Text size="xs" c="dimmed">{key}</Text>} onClick={() => theStage()?.look(view)}>{view}</Menu.Item>
           ))}
         </Menu.Dropdown>
       </Menu>

@@ -33,6 +33,8 @@ export type Scene = {
   unit: string;
   revision: number;
   bounds: Bounds | null;
+  model: Bounds | null; // without the studio's ground: what is framed
+  file: string;
   roots: number[];
   objects: SceneObject[];
   materials: Named[];
@@ -42,8 +44,6 @@ export type Scene = {
   settings: Values;
   can_undo: boolean;
   can_redo: boolean;
-  studio?: string | null;
-  ground?: string;
 };
 
 export type LibraryMaterial = { name: string; group: string; note?: string; color: Vector };
@@ -52,6 +52,7 @@ export type Welcome = {
   version: string;
   protocol: number;
   session: string;
+  taken_up?: boolean;
   limits: { upload: number; width: number; height: number };
   levels: string[];
   formats: string[];
@@ -60,9 +61,9 @@ export type Welcome = {
   library?: LibraryMaterial[];
 };
 
-export type FileEntry = { name: string; bytes?: number; time?: number };
-export type Suggestion = { name: string; title?: string; file?: string };
-export type Files = { folder: string | null; folders: string[]; files: FileEntry[]; examples?: Suggestion[]; recent?: Suggestion[]; environments?: Suggestion[] };
+// name: what `open` takes.
+export type FileEntry = { name: string; title?: string; bytes?: number; time?: number };
+export type Files = { folder: string | null; folders: string[]; files: FileEntry[]; examples?: FileEntry[]; recent?: FileEntry[]; environments?: FileEntry[] };
 
 export type Picked = { path: number[]; face: number; material: number | null; position: Vector; normal: Vector; look?: number };
 
@@ -74,7 +75,7 @@ export type Progress = {
   fraction: number;
   done: boolean;
   paused: boolean;
-  first_picture: number;
+  first_picture: boolean;
   seconds: number;
   rays: number;
   rays_per_second: number;
@@ -100,8 +101,9 @@ export type Incoming = {
   id?: number;
   welcome?: Welcome;
   files?: Files;
-  opening?: { file: string };
-  scene?: Partial<Scene> & { opened?: boolean };
+  opening?: { file: string; fraction?: number; stage?: string };
+  opened?: { file: string };
+  scene?: Partial<Scene>;
   edited?: Edited;
   picked?: Picked | null;
   replayed?: Replayed;

@@ -4,16 +4,15 @@ import { IconAlertTriangle, IconClock, IconCube, IconFile3d, IconFolder, IconUpl
 import type { ReactNode } from 'react';
 import { bytes } from '../format';
 import { listFolder, openFile, receiveFiles } from '../state/files';
-import { recentFiles } from '../state/recent';
 import { useStore } from '../state/store';
 
-const join = (folder: string | null | undefined, name: string) => (folder ? `${folder.replace(/\/$/, '')}/${name}` : name);
+const lastName = (path: string) => path.slice(path.lastIndexOf('/', path.length - 2) + 1);
 
 export function FileChoices() {
   const files = useStore((s) => s.files);
   const limit = useStore((s) => s.welcome?.limits.upload);
   const failure = useStore((s) => s.openFailure);
-  const recent = [...(files?.recent ?? []).map((one) => ({ file: one.file ?? one.name, name: one.title ?? one.name })), ...recentFiles()].filter((one, i, all) => all.findIndex((other) => other.file === one.file) === i).slice(0, 6);
+  const recent = (files?.recent ?? []).slice(0, 8);
   const examples = files?.examples ?? [];
   return (
     <Stack gap="lg">
@@ -36,18 +35,18 @@ export function FileChoices() {
       <SimpleGrid cols={{ base: 1, sm: 2 }} spacing="lg">
         {examples.length > 0 && (
           <Choices title="Examples">
-            {examples.map((one) => <Choice key={one.name} icon={<IconCube size={18} />} name={one.title ?? one.name} testId="example" onClick={() => void openFile(one.file ?? one.name)} />)}
+            {examples.map((one) => <Choice key={one.name} icon={<IconCube size={18} />} name={one.title ?? one.name} testId="example" onClick={() => void openFile(one.name)} />)}
           </Choices>
         )}
         {recent.length > 0 && (
           <Choices title="Recent">
-            {recent.map((one) => <Choice key={one.file} icon={<IconClock size={18} />} name={one.name} detail={one.file !== one.name ? one.file : undefined} onClick={() => void openFile(one.file)} />)}
+            {recent.map((one) => <Choice key={one.name} icon={<IconClock size={18} />} name={one.title ?? lastName(one.name)} detail={one.name} onClick={() => void openFile(one.name)} />)}
           </Choices>
         )}
         {files && (files.folders.length > 0 || files.files.length > 0 || files.folder) && (
           <Choices title="Folders" header={<FolderPath folder={files.folder} />}>
-            {files.folders.map((name) => <Choice key={name} icon={<IconFolder size={18} />} name={name} onClick={() => void listFolder(join(files.folder, name))} />)}
-            {files.files.map((one) => <Choice key={one.name} icon={<IconFile3d size={18} />} name={one.name} detail={one.bytes !== undefined ? bytes(one.bytes) : undefined} testId="file" onClick={() => void openFile(join(files.folder, one.name))} />)}
+            {files.folders.map((name) => <Choice key={name} icon={<IconFolder size={18} />} name={files.folder ? lastName(name) : name} onClick={() => void listFolder(name)} />)}
+            {files.files.map((one) => <Choice key={one.name} icon={<IconFile3d size={18} />} name={one.title ?? lastName(one.name)} detail={one.bytes !== undefined ? bytes(one.bytes) : undefined} testId="file" onClick={() => void openFile(one.name)} />)}
             {files.folders.length + files.files.length === 0 && <Text size="sm" c="dimmed" px={12} py={8}>No models in this folder</Text>}
           </Choices>
         )}

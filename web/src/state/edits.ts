@@ -1,5 +1,5 @@
 // Edits of the scene, as docs/edits.md has them. Each is told the program; what it answers is what the page shows.
-import type { Camera, Named, Outgoing, Vector } from '../protocol/messages';
+import type { Named, Outgoing } from '../protocol/messages';
 import { ask } from './session';
 import { leafOf } from './tree';
 import { get, set } from './store';
@@ -62,7 +62,8 @@ export async function removeSelection(): Promise<void> {
 export async function duplicateSelection(): Promise<void> {
   const { selection, scene } = get();
   if (!scene || selection.length === 0) return;
-  const size = scene.bounds ? Math.max(...scene.bounds.high.map((high, i) => high - (scene.bounds as { low: Vector }).low[i])) : 1;
+  const { low, high } = scene.model ?? { low: [0, 0, 0], high: [1, 1, 1] };
+  const size = Math.max(...high.map((x, i) => x - low[i]));
   const copies = selection.map((path) => {
     const index = leafOf(path);
     const name = scene.objects.find((object) => object.index === index)?.name || `object ${index}`;
@@ -70,5 +71,3 @@ export async function duplicateSelection(): Promise<void> {
   });
   await edit(copies.length === 1 ? copies[0] : { batch: copies }, 'Duplicate');
 }
-
-export const setCamera = (camera: Camera) => edit({ camera }, 'Camera');

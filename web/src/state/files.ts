@@ -9,7 +9,6 @@ export async function openFile(file: string): Promise<void> {
   set({ opening: file, openFailure: null, dialog: null });
   try {
     await connection.request({ open: file });
-    set({ file });
   } catch (error) {
     const failure: Failure = error instanceof Refused ? error.failure : { kind: 'open', problems: [{ reason: error instanceof Error ? error.message : String(error) }] };
     set({ opening: null, openFailure: { file, failure } });
@@ -56,6 +55,6 @@ export async function uploadEnvironment(file: File): Promise<void> {
   if (name !== null) await chooseEnvironment(name);
 }
 
-export async function chooseEnvironment(file: string | null): Promise<void> {
+export async function chooseEnvironment(file: string): Promise<void> {
   if (await ask({ environment_file: file })) set({ lastEdit: 'Environment' });
 }

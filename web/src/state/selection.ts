@@ -1,5 +1,6 @@
 // What is selected, hovered, isolated.
 import { setVisible, edit } from './edits';
+import { isGround } from './ground';
 import { indicesOf, leafOf, objectAt, parentOf } from './tree';
 import { get, set } from './store';
 
@@ -64,6 +65,3 @@ export async function toggleIsolated(): Promise<void> {
   scene.roots.forEach(visit);
   if (hidden.length > 0 && (await edit({ hide: hidden }, 'Isolate'))) set({ isolated: new Map(hidden.map((index) => [index, true])) });
 }
-
-// What a studio stands the model on stays when parts are isolated.
-export const isGround = (name: string) => name === 'studio ground';

@@ -1,7 +1,6 @@
 // The one connection of the page, and what its messages do to the store.
 import { Connection, ConnectionLost, Refused } from '../protocol/socket';
 import type { Incoming, Outgoing, Scene } from '../protocol/messages';
-import { rememberFile } from './recent';
 import { complain } from './notices';
 import { get, set } from './store';
 
@@ -47,9 +46,15 @@ export async function ask(message: Outgoing): Promise<Incoming | undefined> {
 }
 
 function receive(message: Incoming): void {
-  if (message.welcome) set({ welcome: message.welcome, closedReason: null });
+  if (message.welcome) {
+    set({ welcome: message.welcome, closedReason: null });
+    anew = true;
+  }
   if (message.files) set({ files: message.files });
-  if (message.opening) set({ opening: message.opening.file, openFailure: null });
+  if (message.opening) {
+    set({ opening: message.opening.file, openFailure: null });
+    anew = true;
+  }
   if (message.scene) receiveScene(message.scene);
   if (message.edited) {
     const { can_undo, can_redo } = message.edited;
@@ -65,21 +70,25 @@ function receive(message: Incoming): void {
   if (message.closed) set({ closedReason: message.closed.reason });
 }
 
-// After `open` and after a reconnect the scene is whole, later only what has changed.
-function receiveScene(news: Partial<Scene> & { opened?: boolean }): void {
-  const { opened, ...members } = news;
-  const old = get().scene;
-  if (opened || !old) {
-    const again = old !== null && old.name === members.name && old.revision === members.revision;
-    const file = get().opening ?? get().file;
-    set({ scene: withDefaults(members) as Scene, opening: null, openFailure: null, file });
-    if (!again) set({ selection: [], hovered: null, light: null, isolated: null, replayed: null, pixel: null, point: null, lastEdit: null, expanded: new Set((members.roots ?? []).map(String)) });
-    if (file) rememberFile(file, members.name ?? file);
-    if (members.name) document.title = `${members.name} – Crescente`;
-  } else {
-    set({ scene: { ...old, ...withDefaults(members) } });
+// Whether the next scene is another one, or the same after the connection was lost; later ones have only what an edit changed.
+let anew = true;
+
+function receiveScene(news: Partial<Scene>): void {
+  const { scene: old, opening } = get();
+  const members = withDefaults(news);
+  if (old && !(anew && members.objects)) {
+    set({ scene: { ...old, ...members } });
+    return;
   }
+  anew = false;
+  const again = old !== null && opening === null && old.file === members.file;
+  set({ scene: members as Scene, opening: null, openFailure: null });
+  if (!again) set({ selection: [], hovered: null, light: null, isolated: null, replayed: null, pixel: null, point: null, lastEdit: null, layer: 'color', expanded: new Set((members.roots ?? []).map(String)) });
+  document.title = `${titleOf(members as Scene)} – Crescente`;
 }
+
+// What the scene is called: by itself, or as its file.
+export const titleOf = (scene: Scene) => scene.name || scene.file.slice(scene.file.lastIndexOf('/') + 1);
 
 // Members of objects that are left out have their defaults.
 function withDefaults(members: Partial<Scene>): Partial<Scene> {

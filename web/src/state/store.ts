@@ -8,17 +8,13 @@ export type RightTab = 'material' | 'object' | 'lights' | 'studio' | 'cameras' |
 
 export type ExportItem = { key: number; title: string; fraction: number; number?: number; address?: string; name?: string; bytes?: number; problem?: string };
 
-// An edit as it is told in the panel of numbers: its rays are known once the picture has grown again.
-export type EditCost = { title: string; rays: number; cameraRays: number | null; freshRays: number | null };
-
 export type Store = {
   connection: ConnectionState;
   closedReason: string | null;
   welcome: Welcome | null;
   files: Files | null;
-  opening: string | null;
+  opening: string | null; // the file that is being read
   openFailure: { file: string; failure: Failure } | null;
-  file: string | null;
   scene: Scene | null;
   progress: Progress | null;
   edited: Edited | null;
@@ -54,7 +50,6 @@ export const useStore = create<Store>()(() => ({
   files: null,
   opening: null,
   openFailure: null,
-  file: null,
   scene: null,
   progress: null,
   edited: null,

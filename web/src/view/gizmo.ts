@@ -1,8 +1,7 @@
 // The handles that move and turn what is selected, parts and lights. three's TransformControls turns a stand-in; every step of the drag becomes an edit, and the whole drag is one undo.
 import { Matrix4, Object3D, Quaternion, Vector3 } from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
-import { Drag } from '../state/edits';
-import { callName } from '../state/edits';
+import { callName, Drag } from '../state/edits';
 import { boxOf, leafOf, objectAt, parentOf, rowsOfMatrix, worldOf } from '../state/tree';
 import type { Store } from '../state/store';
 import type { Outgoing } from '../protocol/messages';
@@ -13,7 +12,8 @@ const down = new Vector3(0, -1, 0);
 
 export class Gizmo {
   readonly controls: TransformControls;
-  private readonly proxy = new Object3D();
+  // What three's handles hold; it stands in the scene that is drawn over the picture.
+  readonly proxy = new Object3D();
   private drag: Drag | null = null;
   private toEdit: (() => Outgoing) | null = null;
 
@@ -51,8 +51,8 @@ export class Gizmo {
     else if (scene && state.selection.length > 0 && state.tool !== 'select') this.holdPart(state, state.selection[state.selection.length - 1]);
     if (this.toEdit) this.controls.attach(this.proxy);
     else this.controls.detach();
-    if (!scene?.bounds) return;
-    const size = boxOf(scene.bounds).getSize(new Vector3()).length();
+    if (!scene?.model) return;
+    const size = boxOf(scene.model).getSize(new Vector3()).length();
     this.controls.setTranslationSnap(state.snap ? snapOf(size) : null);
     this.controls.setRotationSnap(state.snap ? Math.PI / 12 : null);
   }
@@ -94,7 +94,7 @@ export class Gizmo {
     const turning = far || state.tool === 'rotate';
     this.controls.setMode(turning ? 'rotate' : 'translate');
     this.controls.setSpace(turning ? 'local' : 'world');
-    this.proxy.position.copy(far && state.scene.bounds ? boxOf(state.scene.bounds).getCenter(new Vector3()) : position);
+    this.proxy.position.copy(far && state.scene.model ? boxOf(state.scene.model).getCenter(new Vector3()) : position);
     this.proxy.quaternion.copy(new Quaternion().setFromUnitVectors(down, direction));
     this.toEdit = () =>
       turning

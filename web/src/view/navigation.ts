@@ -2,6 +2,7 @@
 // and the two kinds of projection.
 import CameraControls from 'camera-controls';
 import { Box3, MathUtils, Matrix4, OrthographicCamera, PerspectiveCamera, Quaternion, Raycaster, Sphere, Spherical, Vector2, Vector3, Vector4 } from 'three';
+import type { Share } from './free_share';
 import { makeCamera, readCamera, triple, vector, wholeCamera, type ViewCamera, type WholeCamera } from './camera';
 import type { Camera } from '../protocol/messages';
 
@@ -109,15 +110,38 @@ export class Navigation {
     return this.controls.getTarget(new Vector3(), false);
   }
 
-  fit(box: Box3, animated = true): void {
+  // Shows all of the box in that share of the view.
+  fit(box: Box3, share: Share, animated = true): void {
     if (box.isEmpty()) return;
     const sphere = box.getBoundingSphere(new Sphere());
-    sphere.radius = Math.max(sphere.radius, 1e-9) / filled;
+    sphere.radius = Math.max(sphere.radius, 1e-9) / filled / this.shareOfSmaller(share);
     void this.controls.fitToSphere(sphere, animated);
     void this.controls.setFocalOffset(0, 0, 0, animated);
   }
 
-  look(from: StandardView): void {
+  // Where the box is within the view, but not within that share of it: goes back until it is.
+  stepBack(box: Box3, share: Share): void {
+    this.camera.updateMatrixWorld();
+    const far = { width: 0, height: 0 };
+    for (let i = 0; i < 8; i++) {
+      const corner = new Vector3(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z).project(this.camera);
+      far.width = Math.max(far.width, Math.abs(corner.x));
+      far.height = Math.max(far.height, Math.abs(corner.y));
+    }
+    const factor = Math.max(far.width / share.width, far.height / share.height);
+    if (far.width > 1.05 || far.height > 1.05 || factor <= 1) return;
+    if (this.camera instanceof OrthographicCamera) void this.controls.zoomTo(this.camera.zoom / factor, false);
+    else void this.controls.dollyTo(this.controls.distance * factor, false);
+    this.controls.update(0);
+    this.changed();
+  }
+
+  // Of the share of the narrower side: that is the one that a sphere is fitted to.
+  private shareOfSmaller(share: Share): number {
+    return Math.min(share.width * Math.max(this.aspect, 1), share.height * Math.max(1 / this.aspect, 1));
+  }
+
+  look(from: StandardView, share: Share): void {
     const [x, y, z] = directions[from];
     const target = this.bounds.center;
     const distance = this.controls.distance;
@@ -125,7 +149,7 @@ export class Navigation {
     if (this.camera.up.y !== 1) this.upright();
     void this.controls.setFocalOffset(0, 0, 0, true);
     void this.controls.setLookAt(position.x, position.y, position.z, target.x, target.y, target.z, true);
-    void this.controls.fitToSphere(new Sphere(target.clone(), this.bounds.radius / filled), true);
+    void this.controls.fitToSphere(new Sphere(target.clone(), this.bounds.radius / filled / this.shareOfSmaller(share)), true);
   }
 
   turn(azimuthDegrees: number, polarDegrees: number, animated = true): void {

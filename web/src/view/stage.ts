@@ -4,15 +4,17 @@ import { get, set, useStore, type Store } from '../state/store';
 import { drawFramesWith, send } from '../state/session';
 import { boxOf, leafOf, objectAt, worldBox, worldOf } from '../state/tree';
 import { boxLines, Overlay } from './overlay';
-import { type WholeCamera } from './camera';
+import { wholeCamera, type WholeCamera } from './camera';
 import { Gizmo } from './gizmo';
 import { lightLines } from './light_lines';
 import { LightMarks } from './light_marks';
-import { Navigation } from './navigation';
+import { Navigation, type StandardView } from './navigation';
 import { Picture } from './picture';
 import { Pointer } from './pointer';
 import { ViewCube } from './view_cube';
-import { warp } from './warp';
+import { freeShare } from './free_share';
+import { sameCamera, warp } from './warp';
+import type { Camera, Scene } from '../protocol/messages';
 
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
@@ -54,6 +56,7 @@ export class Stage {
       if (!dragging) this.refresh(get());
     }, wake);
     this.navigation = parts.navigation = new Navigation(element, wake);
+    this.overlay.add(this.gizmo.proxy);
     this.overlay.add(this.gizmo.controls.getHelper());
     this.cube = new ViewCube(cubePlace, this.navigation, wake);
     this.marks = new LightMarks(element);
@@ -108,8 +111,13 @@ export class Stage {
     if (!scene) return;
     const box = new Box3();
     if (!all) for (const path of selection) box.union(worldBox(scene, path) ?? new Box3());
-    if (box.isEmpty() && scene.bounds) box.copy(boxOf(scene.bounds));
-    this.navigation.fit(box);
+    if (box.isEmpty() && scene.model) box.copy(boxOf(scene.model));
+    this.navigation.fit(box, freeShare(this.element));
+    this.wake();
+  }
+
+  look(from: StandardView): void {
+    this.navigation.look(from, freeShare(this.element));
     this.wake();
   }
 
@@ -175,19 +183,34 @@ export class Stage {
   private takeScene(state: Store): void {
     const { scene } = state;
     if (!scene) return;
-    if (scene.bounds) this.navigation.setBounds(boxOf(scene.bounds));
+    if (scene.model) this.navigation.setBounds(boxOf(scene.model));
     this.navigation.set(scene.camera);
-    set({ orthographic: scene.camera.projection === 'orthographic' });
-    // Until the camera is moved, the one of the scene is `look` number 0.
+    // Until the camera is moved, the picture is seen by the one of the scene.
     const camera = this.navigation.get();
     this.cameras.set(this.looks, camera);
     this.told = JSON.stringify(camera);
+    this.makeRoom(scene);
+    set({ orthographic: scene.camera.projection === 'orthographic' });
     this.refresh(state);
+  }
+
+  // A model that was framed for the whole window is stepped back from, once, so far that panels do not cover it.
+  private makeRoom(scene: Scene): void {
+    const seen = `crescente.seen ${get().welcome?.session} ${scene.file}`;
+    if (!scene.model || sessionStorage.getItem(seen) !== null) return;
+    sessionStorage.setItem(seen, '');
+    this.navigation.stepBack(boxOf(scene.model), freeShare(this.element));
+  }
+
+  // Whether it is a camera that the program has from here: then the view is there already, or beyond.
+  private isTold(camera: Camera): boolean {
+    const whole = wholeCamera(camera);
+    return [...this.cameras.values()].some((one) => sameCamera(one, whole));
   }
 
   private follow(now: Store, before: Store): void {
     if (now.connection === 'open' && before.connection !== 'open') this.takeUp();
-    if (now.scene && now.scene.camera !== before.scene?.camera) this.takeScene(now);
+    if (now.scene && now.scene.camera !== before.scene?.camera && !this.isTold(now.scene.camera)) this.takeScene(now);
     else if (now.scene !== before.scene || now.selection !== before.selection || now.hovered !== before.hovered || now.tool !== before.tool || now.light !== before.light || now.snap !== before.snap || now.rightTab !== before.rightTab)
       this.refresh(now);
     if (now.turntable && !before.turntable) this.wake();
@@ -202,11 +225,11 @@ export class Stage {
         const bounds = scene && objectAt(scene, leafOf(path))?.bounds;
         return scene && bounds ? boxLines(boxOf(bounds), worldOf(scene, path)) : [];
       });
-    if (scene?.bounds) this.navigation.setBounds(boxOf(scene.bounds));
+    if (scene?.model) this.navigation.setBounds(boxOf(scene.model));
     this.overlay.setLines('selected', lines(state.selection), colors.selected, 0.95);
     this.overlay.setLines('hovered', state.hovered && !state.selection.includes(state.hovered) ? lines([state.hovered]) : [], colors.hovered, 0.75);
     const light = scene && state.light !== null ? scene.lights[state.light] : undefined;
-    const reach = scene?.bounds ? boxOf(scene.bounds).getSize(new Vector3()).length() / 2 : 1;
+    const reach = scene?.model ? boxOf(scene.model).getSize(new Vector3()).length() / 2 : 1;
     this.overlay.setLines('light', light && light.kind !== 'directional' ? lightLines(light, reach) : [], colors.light, 0.9);
     this.gizmo.show(state, this.navigation.camera);
     this.marks.refresh(state);

@@ -16,7 +16,7 @@ export class ViewCube {
     this.renderer.setSize(size, size);
     this.renderer.domElement.className = 'cube';
     container.append(this.renderer.domElement);
-    const face = { color: 0x39434d, labelColor: 0xf2f4f6, hover: { color: 0xd9982b, labelColor: 0x111111 } };
+    const face = { scale: 0.96, color: 0x39434d, labelColor: 0xf2f4f6, hover: { color: 0xd9982b, labelColor: 0x111111 } };
     this.gizmo = new ViewportGizmo(navigation.camera, this.renderer, {
       container,
       type: 'cube',
@@ -24,9 +24,10 @@ export class ViewCube {
       offset: { left: 0, right: 0, top: 0, bottom: 0 },
       speed: 2,
       font: { family: 'system-ui, sans-serif', weight: 600 },
-      background: { color: 0x39434d, hover: { color: 0x39434d } },
-      corners: { color: 0x56616c, hover: { color: 0xd9982b } },
-      edges: { color: 0x4a545e, hover: { color: 0xd9982b } },
+      radius: 0.12,
+      background: { enabled: false },
+      corners: { enabled: false },
+      edges: { enabled: false },
       right: { ...face, label: 'Right' },
       left: { ...face, label: 'Left' },
       top: { ...face, label: 'Top' },

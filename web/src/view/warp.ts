@@ -14,7 +14,7 @@ export function warp(from: WholeCamera, picture: Size, to: WholeCamera, view: Si
 
 const scaled = (picture: Size, view: Size) => `scale(${view.width / picture.width}, ${view.height / picture.height})`;
 
-function sameCamera(a: WholeCamera, b: WholeCamera): boolean {
+export function sameCamera(a: WholeCamera, b: WholeCamera): boolean {
   if (a.projection !== b.projection || halfHeight(a) !== halfHeight(b)) return false;
   const near = (p: number[], q: number[], tolerance: number) => p.every((x, i) => Math.abs(x - q[i]) <= tolerance);
   const scale = Math.hypot(...a.position.map((x, i) => x - a.target[i]));
