@@ -44,8 +44,8 @@ export function StudioTab() {
       <Stack className="section" gap={9}>
         <Select
           label="Surroundings"
-          data={[{ value: '', label: 'Gradient or sky' }, ...environments.map((one) => ({ value: one.name, label: one.title ?? one.name })), ...(image && !known ? [{ value: image, label: image.slice(image.lastIndexOf('/') + 1) }] : [])]}
-          value={known?.name ?? image}
+          data={[{ value: '', label: 'Gradient or sky' }, ...environments.map((one) => ({ value: one.file ?? one.name, label: one.title ?? one.name })), ...(image && !known ? [{ value: image, label: image.slice(image.lastIndexOf('/') + 1) }] : [])]}
+          value={known ? (known.file ?? known.name) : image}
           allowDeselect={false}
           onChange={(file) => void (file ? chooseEnvironment(file) : edit(setEnvironmentField('image', ''), 'Environment: gradient'))}
         />

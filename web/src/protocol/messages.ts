@@ -61,8 +61,8 @@ export type Welcome = {
   library?: LibraryMaterial[];
 };
 
-// name: what `open` takes.
-export type FileEntry = { name: string; title?: string; bytes?: number; time?: number };
+// file: what `open` takes.
+export type FileEntry = { name: string; file?: string; title?: string; bytes?: number; time?: number };
 export type Files = { folder: string | null; folders: string[]; files: FileEntry[]; examples?: FileEntry[]; recent?: FileEntry[]; environments?: FileEntry[] };
 
 export type Picked = { path: number[]; face: number; material: number | null; position: Vector; normal: Vector; look?: number };
