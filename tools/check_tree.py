@@ -41,6 +41,8 @@ LIBRARIES = {
     "nlohmann/": ["io/", "app/"],
     "CLI/": ["app/"],
     "spdlog/": ["app/"],
+    "boost/": ["app/server/"],
+    "turbojpeg.h": ["app/server/"],
     "xxhash.h": ["base/", "io/"],
 }
 

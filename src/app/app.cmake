@@ -1,5 +1,38 @@
-# The command line program.
-file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/cli/*.cpp)
-add_executable(crescente ${sources})
-target_compile_definitions(crescente PRIVATE CRESCENTE_VERSION="${PROJECT_VERSION}")
-target_link_libraries(crescente PRIVATE render io scene geometry math base CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json)
+# The command line program, and the viewer's server in it.
+option(CRESCENTE_VIEWER "Build the viewer's server (Boost.Beast, libjpeg-turbo)" ON)
+
+file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/cli/*.cpp ${CMAKE_CURRENT_LIST_DIR}/server/*.cpp)
+set(app_definitions CRESCENTE_VERSION="${PROJECT_VERSION}")
+set(app_libraries render io scene geometry parallel math base CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json)
+
+if(CRESCENTE_VIEWER)
+    find_path(BEAST_INCLUDE_DIR boost/beast.hpp)
+    find_path(TURBOJPEG_INCLUDE_DIR turbojpeg.h)
+    find_library(TURBOJPEG_LIBRARY turbojpeg)
+endif()
+if(CRESCENTE_VIEWER AND BEAST_INCLUDE_DIR AND TURBOJPEG_INCLUDE_DIR AND TURBOJPEG_LIBRARY)
+    set(has_viewer TRUE)
+    list(APPEND app_definitions CRESCENTE_WITH_SERVER BOOST_ASIO_NO_DEPRECATED BOOST_ASIO_DISABLE_BOOST_DATE_TIME)
+    list(APPEND app_libraries ${TURBOJPEG_LIBRARY})
+    include(${CMAKE_CURRENT_LIST_DIR}/page.cmake)
+else()
+    set(has_viewer FALSE)
+    if(CRESCENTE_VIEWER)
+        message(STATUS "Boost.Beast or libjpeg-turbo was not found: `crescente view` is switched off")
+    endif()
+    # What only says what the protocol is needs neither.
+    list(FILTER sources EXCLUDE REGEX "/server/")
+    list(APPEND sources ${CMAKE_CURRENT_LIST_DIR}/server/message.cpp ${CMAKE_CURRENT_LIST_DIR}/server/replies.cpp)
+endif()
+
+set(main ${CMAKE_CURRENT_LIST_DIR}/cli/main.cpp)
+list(REMOVE_ITEM sources ${main})
+add_library(app STATIC ${sources})
+target_compile_definitions(app PUBLIC ${app_definitions})
+target_link_libraries(app PUBLIC crescente_flags ${app_libraries})
+if(has_viewer)
+    target_include_directories(app SYSTEM PUBLIC ${BEAST_INCLUDE_DIR} ${TURBOJPEG_INCLUDE_DIR})
+endif()
+
+add_executable(crescente ${main})
+target_link_libraries(crescente PRIVATE app)

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <new>
 #include <span>
 #include <vector>
 
 #include "base/atomic_file.h"
 #include "base/spelling.h"
+#include "io/display_samples.h"
 #include "io/openimageio.h"
 #include "io/png_file.h"
-#include "scene/tonemap.h"
 
 namespace crescente::io {
 namespace {
@@ -54,19 +52,7 @@ Expected<PictureFormat> format_of(const std::filesystem::path& file) {
     return failure(ErrorKind::usage, {file.string(), {}, reason, spelling_hint(extension, known)});
 }
 
-bool has_alpha(const Image& image) { return image.layers.front().channels == std::vector<std::string>{"R", "G", "B", "A"}; }
-
-// The first three channels of the first layer, which is what display formats show: the layer's own values, or `made` from them.
-std::span<const float> color_of(const Image& image, std::vector<float>& made) {
-    const Layer& layer = image.layers.front();
-    const std::size_t channels = layer.channels.size();
-    if (channels == 3) return layer.values;
-    made.resize(std::size_t(image.width) * std::size_t(image.height) * 3);
-    for (std::size_t pixel = 0; pixel < made.size() / 3; ++pixel) {
-        for (std::size_t c = 0; c < 3; ++c) made[3 * pixel + c] = layer.values[pixel * channels + std::min(c, channels - 1)];
-    }
-    return made;
-}
+bool has_alpha(const Image& image) { return image.layers.front().channels.size() == 4; }
 
 tl::unexpected<Error> no_alpha(const std::filesystem::path& file, const PictureFormat& format) {
     return failure(ErrorKind::usage, {file.string(), {}, format.extension + " keeps no alpha channel, which a transparent background asks for", ".png, .tif and .exr do"});
@@ -129,44 +115,11 @@ Expected<std::string> encode_by_module(const Image& image, const PictureFormat& 
     return encode_with_openimageio(request);
 }
 
-// Display colours with alpha. PNG wants them apart (straight), so that what adds light without covering anything, a reflection on ground that is not seen, gets as much alpha as it is
-// bright: over black it is what it was. TIFF wants alpha multiplied in.
-template <class Sample>
-std::vector<Sample> display_with_alpha(const Image& image, bool multiplied, const ImageOptions& options) {
-    const std::vector<float>& values = image.layers.front().values;
-    const std::size_t pixels = values.size() / 4;
-    const auto gain = static_cast<float>(std::exp2(options.exposure));
-    std::vector<float> colors(3 * pixels), alphas(pixels);
-    for (std::size_t p = 0; p < pixels; ++p) {
-        const float* v = &values[4 * p];
-        const float brightest = std::max({v[0], v[1], v[2], 0.0f}) * gain;
-        alphas[p] = std::clamp(std::max(v[3], std::min(1.0f, brightest)), 0.0f, 1.0f);
-        for (std::size_t k = 0; k < 3; ++k) colors[3 * p + k] = alphas[p] > 0 ? v[k] / alphas[p] : 0.0f;
-    }
-    std::vector<Sample> shown(3 * pixels), samples(4 * pixels);
-    scene::display_image(colors, options.tonemap, options.exposure, std::span<Sample>(shown));
-    constexpr float largest = std::numeric_limits<Sample>::max();
-    for (std::size_t p = 0; p < pixels; ++p) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            samples[4 * p + k] = multiplied ? static_cast<Sample>(static_cast<float>(shown[3 * p + k]) * alphas[p] + 0.5f) : shown[3 * p + k];
-        }
-        samples[4 * p + 3] = static_cast<Sample>(alphas[p] * largest + 0.5f);
-    }
-    return samples;
-}
-
 template <class Sample>
 Expected<std::string> encode_display(const Image& image, const PictureFormat& format, const ImageOptions& options) {
-    std::vector<Sample> samples;
+    const Layer& layer = image.layers.front();
+    const auto samples = display_samples<Sample>(layer.values, layer.channels.size(), format.encoder ? AlphaIs::multiplied : AlphaIs::straight, options.tonemap, options.exposure);
     const bool alpha = has_alpha(image);
-    if (alpha) {
-        samples = display_with_alpha<Sample>(image, format.encoder != nullptr, options);
-    } else {
-        std::vector<float> made;
-        const std::span<const float> color = color_of(image, made);
-        samples.resize(color.size());
-        scene::display_image(color, options.tonemap, options.exposure, std::span<Sample>(samples));
-    }
     if (!format.encoder) return encode_png(image.width, image.height, alpha ? 4 : 3, std::span<const Sample>(samples), options.metadata);
     std::vector<std::string> channels{"R", "G", "B"};
     if (alpha) channels.push_back("A");
@@ -180,7 +133,7 @@ Expected<std::string> encode(const Image& image, const PictureFormat& format, co
     }
     if (format.linear) {
         std::vector<float> made;
-        return encode_by_module(image, format, options, color_of(image, made).data(), 32, {"R", "G", "B"});
+        return encode_by_module(image, format, options, colors_of(image.layers.front().values, image.layers.front().channels.size(), made).data(), 32, {"R", "G", "B"});
     }
     if (options.bits == 16 && format.deep) return encode_display<std::uint16_t>(image, format, options);
     return encode_display<std::uint8_t>(image, format, options);

@@ -328,4 +328,16 @@ Affine read_transform(const Json& json, const Measure& measure, const Place& pla
     return transform;
 }
 
+Measure measure_of(const scene::Scene& scene) {
+    const LengthUnit* unit = find_unit(scene.unit.name);
+    if (unit && unit->metres == scene.unit.metres) return {unit->metres, unit->name};
+    return {};
+}
+
+void write_material(const scene::Material& material, const Measure& measure, nlohmann::ordered_json& object) {
+    if (std::holds_alternative<scene::ClassicMaterial>(material.model)) object[model_word().name] = "classic";
+    std::visit([&](const auto& model) { write_fields(model, std::remove_cvref_t<decltype(model)>::fields(), measure, object); }, material.model);
+    if (!material.textures.empty()) object[textures_word().name] = write_textures(material, measure);
+}
+
 }  // namespace crescente::io

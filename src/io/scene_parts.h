@@ -22,4 +22,10 @@ scene::Material read_own_material(const Json& json, const Measure& measure, cons
 // A step or a list of steps, the first applied first.
 math::Affine read_transform(const Json& json, const Measure& measure, const Place& place, ProblemList& problems);
 
+// How lengths of the scene are written: in its unit where that is one of the format, else in metres.
+Measure measure_of(const scene::Scene& scene);
+
+// Adds the material's members to the object, but for its name.
+void write_material(const scene::Material& material, const Measure& measure, nlohmann::ordered_json& object);
+
 }  // namespace crescente::io

@@ -6,9 +6,9 @@
 #include "io/json_fields.h"
 #include "io/json_print.h"
 #include "io/scene_file.h"
+#include "io/scene_parts.h"
 #include "io/scene_words.h"
 #include "io/spline_parts.h"
-#include "io/texture_parts.h"
 
 namespace crescente::io {
 namespace {
@@ -45,10 +45,7 @@ private:
 
 class Writer {
 public:
-    explicit Writer(const Scene& scene) : scene_(scene) {
-        const LengthUnit* unit = find_unit(scene.unit.name);
-        if (unit && unit->metres == scene.unit.metres) measure_ = {unit->metres, unit->name};
-    }
+    explicit Writer(const Scene& scene) : scene_(scene), measure_(measure_of(scene)) {}
 
     std::string write() {
         out_ = "{";
@@ -123,11 +120,7 @@ private:
         for (const auto& material : scene_.materials) {
             material_keys_.push_back(keys.key_for(material.name));
             ordered_json json = named(material.name, material_keys_.back());
-            if (std::holds_alternative<scene::ClassicMaterial>(material.model)) json[model_word().name] = "classic";
-            std::visit([&](const auto& model) {
-                write_fields(model, std::remove_cvref_t<decltype(model)>::fields(), measure_, json);
-            }, material.model);
-            if (!material.textures.empty()) json[textures_word().name] = write_textures(material, measure_);
+            write_material(material, measure_, json);
             begin_entry(out_, first, material_keys_.back());
             print_json(json, out_, 4);
         }

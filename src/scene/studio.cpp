@@ -11,6 +11,8 @@ using math::Bounds;
 using math::Vec3;
 using math::gray;
 
+constexpr const char* ground_name = "studio ground";
+
 // Calls visit with points in world space that enclose all that is visible and bounded: vertices of meshes, corners of other shapes' boxes.
 void for_each_outline_point(const Scene& scene, const std::function<void(Vec3)>& visit) {
     for_each_appearance(scene, [&](std::uint32_t node, const Affine& to_world, const std::vector<MaterialId>&) {
@@ -121,7 +123,19 @@ bool can_be_framed(const math::Bounds& everything) {
     return everything.bounded() && everything.largest_coordinate() < largest;
 }
 
-Placement::Placement(const Scene& scene) : box(bounds(scene)) {
+bool is_studio_ground(const Node& node) { return node.name == ground_name; }
+
+math::Bounds bounds_without_ground(const Scene& scene) {
+    Bounds box;
+    for_each_appearance(scene, [&](std::uint32_t node, const Affine& to_world, const std::vector<MaterialId>&) {
+        if (is_studio_ground(scene.nodes[node])) return;
+        const Bounds shape = geometry::bounds(scene.shapes[scene.nodes[node].shape.value].shape);
+        if (shape.bounded()) box.include(math::transform(to_world, shape));
+    });
+    return box;
+}
+
+Placement::Placement(const Scene& scene) : box(bounds_without_ground(scene)) {
     center = box.bounded() ? box.center() : Vec3{};
     // Never so small that the camera's place could not be told from the target's.
     radius = box.bounded() ? std::max({length(box.diagonal()) / 2, 1e-9, 1e-9 * box.largest_coordinate()}) : 1.0;
@@ -165,7 +179,7 @@ void add_studio_lights(Scene& scene, const Placement& at, Studio studio) {
 void add_ground(Scene& scene, const Placement& at, Ground ground) {
     // Seen from below, a ground would hide the model.
     if (ground == Ground::none || !at.box.bounded() || !(scene.camera->position.y > at.box.lower.y)) return;
-    Material material{"studio ground", PhysicalMaterial{}};
+    Material material{ground_name, PhysicalMaterial{}};
     auto& model = std::get<PhysicalMaterial>(material.model);
     model.base_color = gray(0.5f);
     model.roughness = 0.3;
@@ -176,9 +190,9 @@ void add_ground(Scene& scene, const Placement& at, Ground ground) {
     geometry::Disk disk;
     disk.radius = 40 * at.radius;
     const ShapeId shape{static_cast<std::uint32_t>(scene.shapes.size())};
-    scene.shapes.push_back({"studio ground", disk});
+    scene.shapes.push_back({ground_name, disk});
     Node node;
-    node.name = "studio ground";
+    node.name = ground_name;
     // A hair below the model, so that the two never share a surface.
     node.transform = Affine::translation({at.center.x, at.box.lower.y - 1e-4 * at.radius, at.center.z});
     node.shape = shape;

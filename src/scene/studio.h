@@ -21,11 +21,17 @@ enum class Ground {
     none,
 };
 
+// The box of everything visible and bounded but the ground that add_ground() put there.
+math::Bounds bounds_without_ground(const Scene& scene);
+
+// Whether the object is such a ground.
+bool is_studio_ground(const Node& node);
+
 // Where a model is and how large: what a studio is fitted to.
 struct Placement {
     explicit Placement(const Scene& scene);
 
-    math::Bounds box;     // of what is visible and bounded
+    math::Bounds box;     // of what is visible and bounded, but a studio's ground
     math::Vec3 center;
     double radius;        // half the diagonal of the box, metres
     double azimuth = 0;   // of the camera, degrees; 0 where there is none

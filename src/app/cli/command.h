@@ -25,6 +25,7 @@ struct Command {
 
 Command add_render(CLI::App& app);
 Command add_edit(CLI::App& app);
+Command add_view(CLI::App& app);
 Command add_info(CLI::App& app);
 Command add_bench(CLI::App& app);
 Command add_compare(CLI::App& app);

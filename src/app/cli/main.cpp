@@ -19,6 +19,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  crescente render model.glb -o picture.png     a bare model is framed and lit by a studio\n"
     "  crescente render scene.nff -o picture.png --size 1920x1080 --time 10s\n"
+    "  crescente view model.glb                      the viewer, in the browser\n"
     "  crescente edit model.glb script.jsonl         edits played on a scene, with what each costs\n"
     "  crescente info model.glb                      what is in the file, and what is wrong with it\n"
     "  crescente bench scene.nff                     accelerators and switches compared\n\n"
@@ -65,7 +66,7 @@ ExitCode run(int count, char** arguments) {
     CLI::App app("Crescente renders models by ray tracing with growing realism: a whole picture at once, better at every moment.", "crescente");
     app.set_version_flag("--version", std::string("crescente ") + CRESCENTE_VERSION);
     app.footer(footer);
-    const std::array commands = {add_render(app), add_edit(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app), add_materials(app)};
+    const std::array commands = {add_render(app), add_edit(app), add_view(app), add_info(app), add_bench(app), add_compare(app), add_formats(app), add_schema(app), add_materials(app)};
     for (const Command& command : commands) command.parser->allow_extras();
     app.allow_extras();
 
@@ -88,7 +89,7 @@ ExitCode run(int count, char** arguments) {
         for (const Command& command : commands) names.push_back(command.parser->get_name());
         return usage("there is no command '" + unknown.front() + "'", spelling_hint(unknown.front(), names));
     }
-    return usage("a command is missing", "render, edit, info, bench, compare, formats or schema; see `crescente --help`");
+    return usage("a command is missing", "render, edit, view, info, bench, compare, formats or schema; see `crescente --help`");
 }
 
 }  // namespace

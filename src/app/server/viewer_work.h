@@ -1,0 +1,86 @@
+// What a viewer's thread has and does: it carries out orders, lets the picture grow in quanta between them, and shows it.
+#pragma once
+
+#include <chrono>
+
+#include "app/server/file_library.h"
+#include "app/server/frame_maker.h"
+#include "app/server/scene_json.h"
+#include "app/server/viewer.h"
+#include "render/history.h"
+
+namespace crescente::app {
+
+class Viewer::Work {
+public:
+    Work(Viewer& box, ViewerSettings settings, Outlet outlet);
+    void run();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    // --- viewer_work.cpp: the loop
+    Orders take_orders();
+    bool has_work(Clock::time_point now) const;
+    Clock::time_point wake_time() const;
+    void grow();
+    void show();
+    void tell_progress();
+    void tell_scene();
+    ReplyJson progress_json(const render::Stats& stats, double rays_per_second) const;
+
+    // --- viewer_orders.cpp: what the page asks for
+    void attach(std::uint32_t page);
+    void carry_out(Message message);
+    void take_view();
+    void take_look();
+    void edit(Message& message, const io::Json& json);
+    void walk_history(const MessageId& id, int times, bool undo);
+    void set_until(const MessageId& id, scene::Level level);
+    void set_studio(const Message& message, const std::optional<std::string>& name);
+    void set_environment_file(const Message& message, const std::string& file);
+    void apply(const Message& message, std::vector<scene::Edit> edits);
+    Expected<render::EditReport> change_unseen(std::vector<scene::Edit> edits);  // what undo does not take back
+    void keep_view();
+    void after_edit(const render::EditReport& report, const SceneParts& parts);
+    void open(const std::string& file, const MessageId& id);
+    void list_files(const MessageId& id, const std::optional<std::string>& folder);
+    bool needs_session(const MessageId& id);
+    void say_error(const Error& error, const MessageId& id) { say_.text(error_reply(error, id)); }
+
+    Viewer& box_;
+    ViewerSettings settings_;
+    Outlet say_;
+
+    std::optional<render::Session> session_;
+    render::History history_;
+    std::string file_;          // that is open, as a path
+    std::string title_;         // as the page knows it
+    Problems warnings_;         // of reading it
+    std::uint64_t revision_ = 0;
+
+    bool paused_ = false;
+    std::optional<Look> look_;       // the newest that was not taken yet
+    std::optional<ViewSize> view_;
+    ViewSize wanted_view_{};         // what the page asked for last; 0: nothing yet
+    std::optional<scene::Level> wanted_level_;
+    std::uint32_t looks_ = 0;        // number of the camera that is shown
+    render::Progress progress_;
+
+    FrameMaker frames_;
+    std::uint32_t sent_ = 0, shown_ = 0;  // numbers of frames
+    bool unshown_ = false;                // there may be something to send
+    bool whole_first_ = false;            // nothing is sent before the whole picture is there
+    Clock::time_point next_frame_{}, next_progress_{};
+
+    SceneParts untold_;                   // parts of the scene that the page does not know as they are
+    bool progress_untold_ = false;
+    double grown_seconds_ = 0;            // since the edit
+    std::uint64_t rays_before_ = 0, camera_rays_before_ = 0, tiles_before_ = 0;  // at the edit
+    std::uint64_t rays_told_ = 0;
+    Clock::time_point rays_told_at_{};
+    std::optional<std::uint64_t> fresh_from_;  // rays when all trees began anew, if nothing was edited since
+    std::optional<std::uint64_t> fresh_rays_;
+};
+
+}  // namespace crescente::app
