@@ -36,9 +36,9 @@ export class Gizmo {
     return this.controls.dragging;
   }
 
-  // Whether the pointer is on a handle.
-  get hovered(): boolean {
-    return this.controls.axis !== null && this.controls.object !== undefined;
+  // The handle that the pointer is on, as three calls it: X, XY, ...; null if on none.
+  get handle(): string | null {
+    return this.controls.object === undefined ? null : this.controls.axis;
   }
 
   // Where the handles stand and what they do, from the state of the page.

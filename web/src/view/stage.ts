@@ -89,7 +89,7 @@ export class Stage {
   }
 
   get overHandle(): boolean {
-    return this.gizmo.hovered;
+    return this.gizmo.handle !== null;
   }
 
   // A place of the page as pixel of the picture; null outside.
@@ -136,6 +136,7 @@ export class Stage {
     this.placePicture();
     this.gizmo.controls.camera = this.navigation.camera;
     this.overlay.render(this.navigation.camera);
+    this.element.dataset.handle = this.gizmo.handle ?? '';
     this.marks.place(state, this.navigation.camera, this.size);
     this.time = moving || turning || state.turntable ? now : 0;
     if (this.time !== 0) this.wake();

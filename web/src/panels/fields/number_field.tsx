@@ -3,28 +3,27 @@ import { Group, Slider, Text, Tooltip } from '@mantine/core';
 import { useEffect, useState } from 'react';
 import { labelOf, type Field } from '../../protocol/fields';
 import { NumberBox } from './number_box';
+import { useDraft } from './use_draft';
 import { sliderRange } from './usual_ranges';
 
 type Props = { field: Field; value: number; unit: string; onChange: (value: number, ongoing: boolean) => void };
 
 export function NumberField({ field, value, unit, onChange }: Props) {
-  const [dragged, setDragged] = useState<number | null>(null);
-  // What was dragged to is shown until the scene has it.
-  useEffect(() => setDragged(null), [value]);
+  const draft = useDraft(value);
+  // The range of the slider rests while it is dragged.
   const [settled, setSettled] = useState(value);
   useEffect(() => {
-    if (dragged === null) setSettled(value);
-  }, [value, dragged]);
+    if (draft.shown === value) setSettled(value);
+  }, [value, draft.shown]);
   const [low, high] = sliderRange(field, settled);
   const whole = field.kind === 'integer';
   const step = whole ? 1 : (high - low) / 200;
-  const shown = dragged ?? value;
   const round = (x: number) => (whole ? Math.round(x) : Number(x.toPrecision(4)));
   return (
     <div>
       <Group gap={6} wrap="nowrap">
         <FieldLabel field={field} />
-        <NumberBox value={shown} label={labelOf(field.name)} unit={unit} min={field.minimum} max={field.maximum} w={92} allowDecimal={!whole} onCommit={(x) => onChange(x, false)} />
+        <NumberBox value={draft.shown} label={labelOf(field.name)} unit={unit} min={field.minimum} max={field.maximum} w={92} allowDecimal={!whole} onCommit={(x) => onChange(x, false)} />
       </Group>
       <Slider
         mt={5}
@@ -32,13 +31,16 @@ export function NumberField({ field, value, unit, onChange }: Props) {
         min={low}
         max={high}
         step={step}
-        value={shown}
+        value={draft.shown}
         thumbLabel={labelOf(field.name)}
         onChange={(x) => {
-          setDragged(round(x));
+          draft.drag(round(x));
           onChange(round(x), true);
         }}
-        onChangeEnd={(x) => onChange(round(x), false)}
+        onChangeEnd={(x) => {
+          draft.end();
+          onChange(round(x), false);
+        }}
         data-testid={`slider-${field.name}`}
       />
     </div>
