@@ -10,7 +10,8 @@ export default defineConfig({
   reporter: [['list']],
   outputDir: 'test-results',
   use: {
-    viewport: { width: 1280, height: 720 },
+    // Small, so that pictures converge soon, and wide enough for both panels.
+    viewport: { width: 1120, height: 520 },
     colorScheme: 'dark',
     launchOptions: { executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--enable-unsafe-swiftshader'] },
   },

@@ -24,7 +24,10 @@ export class Program {
       });
       let complaint = '';
       child.stderr?.on('data', (data) => (complaint += String(data)));
-      child.on('exit', (code) => failed(new Error(`crescente view ended with ${code}: ${complaint}`)));
+      child.on('exit', (code, signal) => {
+        if (code !== null && code !== 0) console.error(complaint);
+        failed(new Error(`crescente view ended with ${code ?? signal}: ${complaint}`));
+      });
     });
   }
 

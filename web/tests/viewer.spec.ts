@@ -5,7 +5,8 @@ import { PNG } from 'pngjs';
 import { converged, expect, folder, growTo, model, picture, pixels, run, test, visit } from './program';
 import type { Page } from '@playwright/test';
 
-const middle = { x: 620, y: 400 };
+// On the plate of the model.
+const middle = { x: 545, y: 300 };
 
 const selectPart = async (page: Page) => {
   await page.mouse.click(middle.x, middle.y);
@@ -109,8 +110,8 @@ test('a part is moved by its handles; one drag is one undo', async ({ page, star
 
 // A place at which the pointer is on the upright arrow of the handles, which stand in the middle of the part.
 async function findHandle(page: Page): Promise<{ x: number; y: number }> {
-  for (let y = 280; y < 420; y += 10) {
-    for (let x = 580; x < 700; x += 5) {
+  for (let y = 200; y < 300; y += 10) {
+    for (let x = 500; x < 620; x += 5) {
       await page.mouse.move(x, y);
       if ((await page.getByTestId('stage').getAttribute('data-handle')) === 'Y') return { x, y };
     }

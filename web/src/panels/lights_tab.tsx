@@ -63,10 +63,9 @@ async function add(kind: string): Promise<void> {
   const { scene } = get();
   if (!scene) return;
   const light = newLight(scene, kind);
-  if (await edit({ light }, 'Add light')) {
-    const index = get().scene?.lights.findIndex((one) => one.name === light.name) ?? -1;
-    set({ light: index < 0 ? null : index, selection: [] });
-  }
+  // It comes after those that are there.
+  const index = scene.lights.length;
+  if (await edit({ light }, 'Add light')) set({ light: index, selection: [] });
 }
 
 function LightRow({ light, index, chosen }: { light: Named; index: number; chosen: boolean }) {
