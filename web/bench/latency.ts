@@ -65,7 +65,7 @@ test('latency', async ({ page }) => {
     tell('pointer move to the picture moved in the browser', warped);
     tell('pointer move to pixels of the new camera', drawn);
 
-    await page.mouse.click(620, 420);
+    await page.getByRole('treeitem', { name: 'plate' }).click();
     await expect(page.locator('[role=treeitem][aria-selected=true]')).toHaveCount(1);
     await page.waitForTimeout(3000);
     const slider = page.getByTestId('slider-roughness').getByRole('slider');

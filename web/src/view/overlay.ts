@@ -9,6 +9,7 @@ const unitBox = edges.flatMap((i) => corner(i).toArray());
 export class Overlay {
   readonly scene = new Scene();
   private readonly renderer: WebGLRenderer;
+  private clear = false; // whether nothing is drawn
   private readonly lines = new Map<string, LineSegments<BufferGeometry, LineBasicMaterial>>();
 
   constructor(canvas: HTMLCanvasElement) {
@@ -19,14 +20,19 @@ export class Overlay {
   resize(width: number, height: number, ratio: number): void {
     this.renderer.setPixelRatio(Math.min(ratio, 2));
     this.renderer.setSize(width, height, false);
+    this.clear = false;
   }
 
   add(object: Object3D): void {
     this.scene.add(object);
   }
 
-  render(camera: ViewCamera): void {
+  // Nothing is done where there is nothing to be seen, as mostly while the view turns.
+  render(camera: ViewCamera, handles: boolean): void {
+    const empty = this.lines.size === 0 && !handles;
+    if (empty && this.clear) return;
     this.renderer.render(this.scene, camera);
+    this.clear = empty;
   }
 
   // Lines from pairs of points under a name; those that were there under it go.

@@ -135,7 +135,7 @@ export class Stage {
     this.tellCamera();
     this.placePicture();
     this.gizmo.controls.camera = this.navigation.camera;
-    this.overlay.render(this.navigation.camera);
+    this.overlay.render(this.navigation.camera, this.gizmo.controls.object !== undefined);
     this.element.dataset.handle = this.gizmo.handle ?? '';
     this.marks.place(state, this.navigation.camera, this.size);
     this.time = moving || turning || state.turntable ? now : 0;
