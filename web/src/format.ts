@@ -24,4 +24,4 @@ export function seconds(s: number): string {
 }
 
 // To so many digits, without noughts at the end.
-export const short = (x: number, digits = 4) => String(Number(x.toPrecision(digits)));
+export const short = (x: number, digits = 4) => (Math.abs(x) >= 1e6 ? x.toExponential(Math.min(digits, 3) - 1).replace('e+', 'e') : String(Number(x.toPrecision(digits))));

@@ -19,7 +19,7 @@ export function objectAt(scene: Scene, index: number): SceneObject | undefined {
   return map.get(index);
 }
 
-export const nameOf = (object: SceneObject | undefined) => object?.name || (object?.shape ? object.shape : `Group ${object?.index ?? ''}`);
+export const nameOf = (object: SceneObject | undefined) => object?.name || `${object?.shape ?? 'group'} ${object?.index ?? ''}`;
 
 export type Row = { path: string; object: SceneObject; depth: number; hidden: boolean; open: boolean };
 

@@ -119,7 +119,7 @@ export class Navigation {
     void this.controls.setFocalOffset(0, 0, 0, animated);
   }
 
-  // Where the box is within the view, but not within that share of it: goes back until it is.
+  // Where the box is about within the view, but not within that share of it: goes back until it is.
   stepBack(box: Box3, share: Share): void {
     this.camera.updateMatrixWorld();
     const far = { width: 0, height: 0 };
@@ -128,8 +128,9 @@ export class Navigation {
       far.width = Math.max(far.width, Math.abs(corner.x));
       far.height = Math.max(far.height, Math.abs(corner.y));
     }
-    const factor = Math.max(far.width / share.width, far.height / share.height);
-    if (far.width > 1.05 || far.height > 1.05 || factor <= 1) return;
+    // The corners of a box may lie outside where what is in it does not.
+    const factor = Math.max(Math.min(far.width, filled) / share.width, Math.min(far.height, filled) / share.height);
+    if (Math.max(far.width, far.height) > 1.6 || factor <= 1) return;
     if (this.camera instanceof OrthographicCamera) void this.controls.zoomTo(this.camera.zoom / factor, false);
     else void this.controls.dollyTo(this.controls.distance * factor, false);
     this.controls.update(0);
