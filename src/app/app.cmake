@@ -22,8 +22,10 @@ else()
     endif()
     # What only says what the protocol is needs neither.
     list(FILTER sources EXCLUDE REGEX "/server/")
-    list(APPEND sources ${CMAKE_CURRENT_LIST_DIR}/server/message.cpp ${CMAKE_CURRENT_LIST_DIR}/server/replies.cpp)
+    list(APPEND sources ${CMAKE_CURRENT_LIST_DIR}/server/message.cpp ${CMAKE_CURRENT_LIST_DIR}/server/replies.cpp ${CMAKE_CURRENT_LIST_DIR}/server/protocol_schema.cpp)
 endif()
+
+set(CRESCENTE_HAS_VIEWER ${has_viewer} CACHE INTERNAL "crescente view is in the program")
 
 set(main ${CMAKE_CURRENT_LIST_DIR}/cli/main.cpp)
 list(REMOVE_ITEM sources ${main})

@@ -1,14 +1,13 @@
-// A pixel's ray trees as text, for whoever asks why it looks as it does.
+// What is known of a pixel, taken out of its tile.
 #pragma once
 
-#include <string>
-
 #include "render/forest.h"
+#include "render/ray_tree.h"
 #include "render/world.h"
 
 namespace crescente::render {
 
 // x, y: pixel in the tile.
-std::string describe_pixel(const Tile& tile, const World& world, int x, int y);
+PixelTrees trees_of_pixel(const Tile& tile, const World& world, int x, int y);
 
 }  // namespace crescente::render

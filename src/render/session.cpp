@@ -221,12 +221,12 @@ void Session::look_at(const Area& area) {
 
 const scene::Scene& Session::scene() const { return state_->world->scene; }
 
-std::string Session::describe(int x, int y) {
+PixelTrees Session::trees(int x, int y) {
     State& s = *state_;
     s.catch_up(Deadline::never());
     const Tile* tile = s.tile_at(x, y);
     if (!tile) return {};
-    return describe_pixel(tile->shows_pixels() ? s.regrown(*tile) : *tile, *s.world, x - tile->x0, y - tile->y0);
+    return trees_of_pixel(tile->shows_pixels() ? s.regrown(*tile) : *tile, *s.world, x - tile->x0, y - tile->y0);
 }
 
 std::optional<Pick> Session::pick(int x, int y) {

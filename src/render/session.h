@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "render/counts.h"
 #include "render/deadline.h"
+#include "render/ray_tree.h"
 #include "scene/edit.h"
 #include "scene/image.h"
 #include "scene/scene.h"
@@ -119,9 +120,10 @@ public:
     Stats stats() const;
     const scene::Scene& scene() const;
 
-    // The ray trees of a pixel's corners as text: rays, hits, influences, light by light. x and y count from the top left.
+    // The ray trees of a pixel's corners: rays, hits, influences, light by light. x and y count from the top left.
     // Empty if the pixel is outside the picture. Traces nothing; under a memory ceiling the tile is recomputed first.
-    std::string describe(int x, int y);
+    PixelTrees trees(int x, int y);
+    std::string describe(int x, int y) { return text_of(trees(x, y)); }
 
 private:
     struct State;

@@ -125,6 +125,25 @@ bool can_be_framed(const math::Bounds& everything) {
 
 bool is_studio_ground(const Node& node) { return node.name == ground_name; }
 
+std::optional<Studio> studio_of(const Scene& scene) {
+    for (std::size_t i = 0; i < std::size(studio_names); ++i) {
+        const auto studio = static_cast<Studio>(i);
+        const Set set = set_of(studio);
+        if (std::equal(set.panels.begin(), set.panels.end(), scene.lights.begin(), scene.lights.end(), [](const Panel& panel, const Light& light) { return panel.name == light.name; })) return studio;
+    }
+    return {};
+}
+
+Ground ground_of(const Scene& scene) {
+    for (const NodeId root : scene.roots) {
+        const Node& node = scene.nodes[root.value];
+        if (!is_studio_ground(node) || !node.visible) continue;
+        const auto* model = node.materials.empty() ? nullptr : std::get_if<PhysicalMaterial>(&scene.materials[node.materials[0].value].model);
+        return model && model->catcher ? Ground::catcher : Ground::studio;
+    }
+    return Ground::none;
+}
+
 math::Bounds bounds_without_ground(const Scene& scene) {
     Bounds box;
     for_each_appearance(scene, [&](std::uint32_t node, const Affine& to_world, const std::vector<MaterialId>&) {

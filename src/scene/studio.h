@@ -27,6 +27,10 @@ math::Bounds bounds_without_ground(const Scene& scene);
 // Whether the object is such a ground.
 bool is_studio_ground(const Node& node);
 
+// The studio whose lights a scene has, by their names; the ground that it stands on.
+std::optional<Studio> studio_of(const Scene& scene);
+Ground ground_of(const Scene& scene);
+
 // Where a model is and how large: what a studio is fitted to.
 struct Placement {
     explicit Placement(const Scene& scene);

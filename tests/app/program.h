@@ -81,6 +81,15 @@ public:
         return true;
     }
 
+    // The first line of standard output, without its end; what came so far if the program ended without one.
+    std::string first_line() {
+        while (outcome_.out.find('\n') == std::string::npos && read_some()) {
+        }
+        return outcome_.out.substr(0, outcome_.out.find('\n'));
+    }
+
+    pid_t process() const { return process_; }
+
     Outcome finish() {
         while (read_some()) {
         }

@@ -68,6 +68,12 @@ io::ImageOptions image_options(const PictureOptions& options, const scene::Scene
     return image;
 }
 
+void prefer_finish(scene::Settings& settings, bool trees_needed) {
+    settings.order = scene::Order::tiles;
+    const bool denoises = settings.level > scene::Level::edges && settings.denoise != scene::Denoise::off;
+    settings.keep = settings.keep && (denoises || trees_needed);
+}
+
 Expected<void> check_alpha(const std::vector<std::string>& outputs, const scene::Scene& scene) {
     OutputCheck all;
     if (scene.environment && scene.environment->transparent) {

@@ -39,6 +39,9 @@ bool needs_all_layers(const std::vector<std::string>& outputs);
 // How pictures of the scene are written.
 io::ImageOptions image_options(const PictureOptions& options, const scene::Scene& scene, const scene::Image& picture);
 
+// The fastest way to the finished picture, where nobody watches it grow and nobody comes back to the rays. `trees_needed`: the finished picture is made of all trees (layers, replay).
+void prefer_finish(scene::Settings& settings, bool trees_needed);
+
 // Every output that cannot keep the alpha channel that the scene's background asks for.
 Expected<void> check_alpha(const std::vector<std::string>& outputs, const scene::Scene& scene);
 

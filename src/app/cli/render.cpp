@@ -194,10 +194,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
         if (pixel && (pixel->x >= settings.width || pixel->y >= settings.height)) return fail({ErrorKind::usage, {{"", option, "the pixel is outside the picture", ""}}});
     }
     if (settings.order == scene::Order::automatic && !request->time) {
-        // Nobody watches, and nobody comes back to the rays: the fastest way to the finished picture.
-        loaded->scene.settings.order = scene::Order::tiles;
-        const bool denoises = settings.level > scene::Level::edges && settings.denoise != scene::Denoise::off;
-        loaded->scene.settings.keep = settings.keep && (request->replay || request->pick || denoises || needs_all_layers(options.picture.outputs));
+        prefer_finish(loaded->scene.settings, request->replay || request->pick || needs_all_layers(options.picture.outputs));
     }
     auto session = render::Session::open(std::move(loaded->scene));
     if (!session) return fail(session.error());

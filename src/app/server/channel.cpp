@@ -19,9 +19,9 @@ std::string_view name_of(std::string_view text) { return text.substr(0, text.fin
 }  // namespace
 
 Channel::Channel(Stream stream, std::shared_ptr<std::atomic<std::size_t>> backlog)
-    : stream_(std::move(stream)), backlog_(std::move(backlog)), wake_(stream_.get_executor(), net::steady_timer::time_point::max()) {
-    *backlog_ = 0;
-}
+    : stream_(std::move(stream)), backlog_(std::move(backlog)), wake_(stream_.get_executor(), net::steady_timer::time_point::max()) {}
+
+Channel::~Channel() { stop(); }
 
 void Channel::push(Outgoing message) {
     if (closing_ || stopped_) return;
@@ -48,6 +48,9 @@ void Channel::close(const std::string& reason) {
 
 void Channel::stop() {
     stopped_ = true;
+    for (const Outgoing& message : waiting_) {
+        if (message.text) *backlog_ -= message.bytes.size();
+    }
     waiting_.clear();
     wake_.cancel();
 }
@@ -67,7 +70,7 @@ net::awaitable<void> Channel::write() {
         if (message.text) *backlog_ -= message.bytes.size();
         if (error) break;
     }
-    stopped_ = true;
+    stop();
     co_await stream_.async_close(beast::websocket::close_code::going_away, net::redirect_error(net::use_awaitable, error));
 }
 

@@ -17,8 +17,11 @@ class Channel {
 public:
     using Stream = boost::beast::websocket::stream<boost::beast::tcp_stream>;
 
-    // `backlog`: counts the bytes of texts that wait; others may read it.
+    // `backlog`: where the bytes of texts that wait are counted, maybe with those of others; any thread may read it.
     Channel(Stream stream, std::shared_ptr<std::atomic<std::size_t>> backlog);
+    ~Channel();
+    Channel(const Channel&) = delete;
+    Channel& operator=(const Channel&) = delete;
 
     Stream& stream() { return stream_; }
 

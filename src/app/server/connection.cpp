@@ -1,5 +1,6 @@
 #include "app/server/connection.h"
 
+#include <array>
 #include <filesystem>
 
 #include <boost/asio/redirect_error.hpp>
@@ -77,13 +78,22 @@ net::awaitable<bool> send_file(beast::tcp_stream& stream, const std::filesystem:
     co_return keep_alive;
 }
 
+// Whoever is still sending a body that nobody wants must be able to read the answer: what comes is taken, for a moment, before the connection is closed.
+net::awaitable<void> take_leave(beast::tcp_stream& stream) {
+    boost::system::error_code error;
+    stream.socket().shutdown(net::ip::tcp::socket::shutdown_send, error);
+    stream.expires_after(2s);
+    std::array<char, 16384> unwanted;
+    while (!error) co_await stream.async_read_some(net::buffer(unwanted), net::redirect_error(net::use_awaitable, error));
+}
+
 net::awaitable<void> serve_requests(beast::tcp_stream& stream, ServerState& state) {
     beast::flat_buffer buffer;
     for (bool open = true; open;) {
         boost::system::error_code error;
         UploadParser parser;
         parser.header_limit(longest_header);
-        parser.body_limit(state.sessions->limits().upload);
+        parser.body_limit(boost::none);  // who takes a body counts it
         stream.expires_after(patience);
         co_await http::async_read_header(stream, buffer, parser, net::redirect_error(net::use_awaitable, error));
         if (error) co_return;
@@ -130,8 +140,7 @@ net::awaitable<void> serve_requests(beast::tcp_stream& stream, ServerState& stat
         co_await http::async_write(stream, answer, net::redirect_error(net::use_awaitable, error));
         if (error) co_return;
     }
-    boost::system::error_code ignored;
-    stream.socket().shutdown(net::ip::tcp::socket::shutdown_send, ignored);
+    co_await take_leave(stream);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ bool is_model(const fs::path& path) {
                        [&](const io::Format& format) { return std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end(); });
 }
 
+// Pictures that may surround a scene.
+bool is_environment(const fs::path& path) { return path.extension() == ".hdr" || path.extension() == ".exr"; }
+
 // Installed beside the program, or above it where it was built.
 fs::path examples_folder() {
     const fs::path program = resolved("/proc/self/exe").parent_path();
@@ -70,7 +73,7 @@ std::int64_t seconds_since_1970(fs::file_time_type time) {
 
 ReplyJson file_json(const fs::path& path, const std::string& name) {
     std::error_code error;
-    ReplyJson json{{"name", name}, {"title", path.filename().string()}};
+    ReplyJson json{{"name", path.filename().string()}, {"title", path.filename().string()}, {"file", name}};
     const auto bytes = fs::file_size(path, error);
     if (!error) json["bytes"] = bytes;
     const auto time = fs::last_write_time(path, error);
@@ -78,9 +81,26 @@ ReplyJson file_json(const fs::path& path, const std::string& name) {
     return json;
 }
 
+// Those of a folder; each is opened by its name after the prefix.
+void add_environments(const fs::path& folder, const std::string& prefix, ReplyJson& list) {
+    if (folder.empty()) return;
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end; !error && at != end; at.increment(error)) {
+        const std::string name = at->path().filename().string();
+        if (!name.starts_with('.') && is_environment(name) && is_file(at->path()) && names.size() < most_listed) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) {
+        list.push_back({{"name", name}, {"title", fs::path(name).stem().string()}, {"file", prefix + name}});
+    }
+}
+
 tl::unexpected<Error> refused(const std::string& name) {
     return failure(ErrorKind::input, {name, "", "there is no such file, or it may not be opened", "`--folder DIR` allows a folder"});
 }
+
+bool names_files(const fs::path& file) { return file.extension() == ".json" || file.extension() == ".gltf"; }
 
 // Calls visit with each file that the value names, and where that is said.
 template <class Visit>
@@ -134,9 +154,14 @@ Expected<fs::path> FileLibrary::find(const std::string& name, const fs::path& up
 }
 
 Expected<ReplyJson> FileLibrary::list(const std::optional<std::string>& folder, const fs::path& uploads) const {
-    ReplyJson json{{"folder", nullptr}, {"folders", ReplyJson::array()}, {"files", ReplyJson::array()}, {"examples", examples()}, {"recent", recent()}};
+    ReplyJson json{{"folder", nullptr}, {"folders", ReplyJson::array()}, {"files", ReplyJson::array()}, {"environments", ReplyJson::array()}, {"examples", examples()}, {"recent", recent()}};
     if (!folder) {
-        for (const fs::path& allowed : places_.folders) json["folders"].push_back(allowed.string());
+        add_environments(examples_, std::string(example_prefix), json["environments"]);
+        add_environments(uploads, std::string(upload_prefix), json["environments"]);
+        for (const fs::path& allowed : places_.folders) {
+            json["folders"].push_back(allowed.string());
+            add_environments(allowed, allowed.string() + "/", json["environments"]);
+        }
         for (const fs::path& file : places_.files) json["files"].push_back(file_json(file, file.string()));
         return json;
     }
@@ -153,7 +178,8 @@ Expected<ReplyJson> FileLibrary::list(const std::optional<std::string>& folder, 
     std::sort(folders.begin(), folders.end());
     std::sort(files.begin(), files.end());
     json["folder"] = path.string();
-    for (const fs::path& inner : folders) json["folders"].push_back(inner.string());
+    for (const fs::path& inner : folders) json["folders"].push_back(inner.filename().string());
+    add_environments(path, path.string() + "/", json["environments"]);
     for (const fs::path& file : files) json["files"].push_back(file_json(file, file.string()));
     return json;
 }
@@ -211,10 +237,32 @@ Expected<void> check_named_files(const io::Json& json, const FileLibrary& librar
     Error error{ErrorKind::input, {}};
     for_each_named_file(json, {}, [&](const std::string& file, const io::Place& place) {
         if (file.empty() || file.starts_with("data:")) return;
-        const fs::path path = folder / file;
-        if (!library.is_allowed(path, uploads)) error.problems.push_back({"", place.pointer(), "'" + file.substr(0, 300) + "' may not be read", "`--folder DIR` allows a folder"});
+        // Names in glTF may be escaped, by which dots can hide.
+        const bool escaped_dots = file.find("%2") != std::string::npos;
+        if (escaped_dots || !library.is_allowed(folder / file, uploads)) error.problems.push_back({"", place.pointer(), "'" + file.substr(0, 300) + "' may not be read", "`--folder DIR` allows a folder"});
     });
     if (!error.problems.empty()) return tl::unexpected(std::move(error));
+    return {};
+}
+
+Expected<void> check_upload(const fs::path& model, const FileLibrary& library, const fs::path& uploads) {
+    constexpr std::uintmax_t longest = std::uintmax_t{1} << 28;
+    std::vector<fs::path> open{resolved(model)}, seen;
+    while (!open.empty()) {
+        const fs::path file = open.back();
+        open.pop_back();
+        std::error_code error;
+        if (!names_files(file) || std::find(seen.begin(), seen.end(), file) != seen.end() || !lies_in(file, uploads)) continue;
+        if (fs::file_size(file, error) > longest || error) return failure(ErrorKind::input, {file.filename().string(), "", "is too large to be looked into", ""});
+        seen.push_back(file);
+        std::ifstream stream(file, std::ios::binary);
+        const std::string text((std::istreambuf_iterator<char>(stream)), {});
+        io::ProblemList problems{file.filename().string()};
+        const auto json = io::parse_json(text, problems);
+        if (!json) continue;  // its reader tells what is wrong
+        if (const auto allowed = check_named_files(*json, library, file.parent_path(), uploads); !allowed) return allowed;
+        for_each_named_file(*json, {}, [&](const std::string& name, const io::Place&) { open.push_back(resolved(file.parent_path() / name)); });
+    }
     return {};
 }
 

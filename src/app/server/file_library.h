@@ -47,4 +47,7 @@ private:
 // Whether every file that an edit or a scene names (`image`, `profile`, `file`, `uri`) is allowed; `folder`: where relative paths begin. Errors (input): each that is not.
 Expected<void> check_named_files(const io::Json& json, const FileLibrary& library, const std::filesystem::path& folder, const std::filesystem::path& uploads);
 
+// The same for a model that was uploaded, and for those that it names in turn: nobody else vouches for it. Only formats that name files are looked into (native scenes, glTF as text).
+Expected<void> check_upload(const std::filesystem::path& model, const FileLibrary& library, const std::filesystem::path& uploads);
+
 }  // namespace crescente::app

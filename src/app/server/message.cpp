@@ -15,6 +15,8 @@ using io::ProblemList;
 
 constexpr int most_times = 10'000;
 constexpr std::size_t longest_text = 4096;
+constexpr std::int64_t most_view_pixels = std::int64_t{1} << 24;    // of which all trees are kept
+constexpr std::int64_t most_export_pixels = std::int64_t{1} << 28;
 
 // Reads the value of one verb; every function tells what is wrong and then returns anything.
 class RequestReader {
@@ -32,6 +34,7 @@ public:
             {"attend", &RequestReader::attend}, {"layer", &RequestReader::layer},     {"pick", &RequestReader::pick},
             {"replay", &RequestReader::replay}, {"shown", &RequestReader::shown},     {"open", &RequestReader::open},
             {"files", &RequestReader::files},   {"studio", &RequestReader::studio},   {"environment_file", &RequestReader::environment_file},
+            {"ground", &RequestReader::ground},
             {"export", &RequestReader::export_picture}, {"cancel", &RequestReader::cancel}};
         for (const Verb& known : table) {
             if (known.name == verb) return (this->*known.read)(value, place);
@@ -48,17 +51,18 @@ private:
         problems_.add(json, place, "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most));
         return least;
     }
-    // Members of an object: all of these are there, and no others.
-    bool members(const Json& json, const Place& place, std::initializer_list<std::string> names) {
+    // Members of an object: all of these are there, maybe the optional ones, and no others.
+    bool members(const Json& json, const Place& place, std::vector<std::string> known, const std::vector<std::string>& optional = {}) {
         if (!json.object()) return must_be(json, place, "an object"), false;
-        const std::vector<std::string> known(names);
         bool right = true;
+        const std::vector<std::string> required = known;
+        known.insert(known.end(), optional.begin(), optional.end());
         for (const auto& member : *json.object()) {
             if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
             io::unknown_member(member, place, known, problems_);
             right = false;
         }
-        for (const std::string& name : known) {
+        for (const std::string& name : required) {
             if (json.find(name)) continue;
             problems_.add(json, place, "'" + name + "' is missing");
             right = false;
@@ -89,6 +93,10 @@ private:
         return value ? static_cast<scene::Level>(std::get<std::int64_t>(*value)) : scene::Level::edges;
     }
 
+    void check_pixels(const Json& json, const Place& place, int width, int height, std::int64_t most) {
+        if (std::int64_t{width} * height > most) problems_.add(json, place, "is larger than " + std::to_string(most) + " pixels");
+    }
+
     Request undo(Json& json, const Place& place) { return UndoEdits{static_cast<int>(whole(json, place, 1, most_times))}; }
     Request redo(Json& json, const Place& place) { return RedoEdits{static_cast<int>(whole(json, place, 1, most_times))}; }
     Request look(Json& json, const Place& place) {
@@ -97,7 +105,9 @@ private:
     }
     Request view(Json& json, const Place& place) {
         if (!members(json, place, {"width", "height"})) return ViewSize{};
-        return ViewSize{static_cast<int>(whole(*json.find("width"), place / "width", 1, widest_view)), static_cast<int>(whole(*json.find("height"), place / "height", 1, widest_view))};
+        const ViewSize size{static_cast<int>(whole(*json.find("width"), place / "width", 1, widest_view)), static_cast<int>(whole(*json.find("height"), place / "height", 1, widest_view))};
+        check_pixels(json, place, size.width, size.height, most_view_pixels);
+        return size;
     }
     Request until(Json& json, const Place& place) { return GrowUntil{level(json, place)}; }
     Request pause(Json& json, const Place& place) {
@@ -128,19 +138,31 @@ private:
         if (json.is_null()) return SetStudio{};
         return SetStudio{text(json, place)};
     }
-    Request environment_file(Json& json, const Place& place) { return EnvironmentFile{text(json, place)}; }
+    Request ground(Json& json, const Place& place) { return SetGround{static_cast<scene::Ground>(one_of(json, place, ground_names()))}; }
+    Request environment_file(Json& json, const Place& place) {
+        if (json.is_null()) return EnvironmentFile{};
+        return EnvironmentFile{text(json, place)};
+    }
     Request export_picture(Json& json, const Place& place) {
-        if (!json.object()) return must_be(json, place, "an object"), Export{};
         const Json* format = json.find("format");
         const bool scene_only = format && format->text() && *format->text() == "json";
-        if (!(scene_only && json.object()->size() == 1) && !members(json, place, {"format", "width", "height", "level"})) return Export{};
+        const std::vector<std::string> of_picture{"width", "height", "level"};
+        std::vector<std::string> needed{"format"}, optional{"camera"};
+        auto& place_of_size = scene_only ? optional : needed;
+        place_of_size.insert(place_of_size.end(), of_picture.begin(), of_picture.end());
+        if (!members(json, place, needed, optional)) return Export{};
         Export wanted;
         wanted.format = export_formats()[one_of(*format, place / "format", export_formats())];
-        if (scene_only) return wanted;
         constexpr int largest = 32768;
-        wanted.width = static_cast<int>(whole(*json.find("width"), place / "width", 1, largest));
-        wanted.height = static_cast<int>(whole(*json.find("height"), place / "height", 1, largest));
-        wanted.level = level(*json.find("level"), place / "level");
+        if (const Json* width = json.find("width")) wanted.width = static_cast<int>(whole(*width, place / "width", 1, largest));
+        if (const Json* height = json.find("height")) wanted.height = static_cast<int>(whole(*height, place / "height", 1, largest));
+        check_pixels(json, place, wanted.width, wanted.height, most_export_pixels);
+        if (const Json* of = json.find("level")) wanted.level = level(*of, place / "level");
+        for (Json::Member& member : *json.object()) {
+            if (member.key != "camera" || member.value.is_null()) continue;
+            if (!member.value.object()) must_be(member.value, place / "camera", "a camera of a scene file");
+            wanted.camera = std::move(member.value);
+        }
         return wanted;
     }
     Request cancel(Json& json, const Place& place) { return CancelExport{static_cast<std::uint32_t>(whole(json, place, 0, 0xffffffff))}; }
@@ -185,7 +207,8 @@ std::span<const io::Word> request_words() {
         {"open", "file", "Opens a model: an upload, an example, a recent file, or a file in an allowed folder"},
         {"files", "folder, or `null`", "What can be opened"},
         {"studio", "name of a studio, or `null`", "Lights, surroundings and ground in place of those that are there, or none"},
-        {"environment_file", "file", "A picture that surrounds the scene"},
+        {"ground", "name of a ground", "What the model stands on: solid, catch (only shadows and reflections are seen) or none"},
+        {"environment_file", "file, or `null`", "A picture that surrounds the scene, or none"},
         {"export", "see below", "Makes a picture, or the scene, to be downloaded"},
         {"cancel", "number of an export", "Gives it up"},
     };
@@ -202,6 +225,11 @@ std::span<const io::Word> beside_words() {
 
 std::span<const std::string_view> layer_names() {
     static constexpr std::string_view names[] = {"color", "samples", "influence", "level"};
+    return names;
+}
+
+std::span<const std::string_view> ground_names() {
+    static constexpr std::string_view names[] = {"solid", "catch", "none"};
     return names;
 }
 

@@ -9,6 +9,7 @@
 #include "io/scene_words.h"
 #include "render/session.h"
 #include "scene/settings.h"
+#include "scene/studio.h"
 
 namespace crescente::app {
 
@@ -59,19 +60,23 @@ struct ListFiles {
 struct SetStudio {
     std::optional<std::string> name;
 };
+struct SetGround {
+    scene::Ground ground = scene::Ground::none;
+};
 struct EnvironmentFile {
-    std::string file;
+    std::optional<std::string> file;  // none: the gradient again
 };
 struct Export {
     std::string format;
     int width = 0, height = 0;
     scene::Level level = scene::Level::edges;
+    std::optional<io::Json> camera;  // none: the one by which the picture is seen
 };
 struct CancelExport {
     std::uint32_t number = 0;
 };
 using Request = std::variant<EditScene, UndoEdits, RedoEdits, Look, ViewSize, GrowUntil, Pause, Attend, ShowLayer, PickAt, ReplayAt, FrameShown, OpenFile, ListFiles,
-                             SetStudio, EnvironmentFile, Export, CancelExport>;
+                             SetStudio, SetGround, EnvironmentFile, Export, CancelExport>;
 
 struct Message {
     std::optional<std::int64_t> id;  // that the answer repeats
@@ -87,6 +92,7 @@ std::span<const io::Word> request_words();
 std::span<const io::Word> beside_words();
 std::span<const std::string_view> layer_names();    // by ShownLayer
 std::span<const std::string_view> export_formats();
+std::span<const std::string_view> ground_names();   // by scene::Ground
 
 Message read_message(std::string_view text);
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "app/server/message.h"
 #include "io/scene_parts.h"
 #include "scene/studio.h"
 
@@ -141,8 +142,8 @@ ReplyJson scene_json(const scene::Scene& scene, const SceneParts& parts) {
     const io::Measure measure{scene.unit.metres, scene.unit.name};
     ReplyJson json{{"name", scene.name}, {"unit", scene.unit.name}, {"metres", scene.unit.metres}};
     if (parts.objects) {
-        json["bounds"] = bounds_json(scene::bounds(scene), measure.metres);
-        json["model"] = bounds_json(bounds_without_ground(scene), measure.metres);
+        json["bounds"] = bounds_json(bounds_without_ground(scene), measure.metres);
+        json["ground"] = ground_names()[static_cast<std::size_t>(scene::ground_of(scene))];
         json["objects"] = objects_json(scene);
         json["roots"] = indices(scene.roots);
     }
@@ -155,6 +156,8 @@ ReplyJson scene_json(const scene::Scene& scene, const SceneParts& parts) {
         }
     }
     if (parts.lights) {
+        const auto studio = scene::studio_of(scene);
+        json["studio"] = studio ? ReplyJson(scene::studio_names[static_cast<std::size_t>(*studio)]) : ReplyJson(nullptr);
         json["lights"] = ReplyJson::array();
         for (const scene::Light& light : scene.lights) {
             ReplyJson one{{"name", light.name}};

@@ -4,6 +4,7 @@
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -28,7 +29,7 @@ public:
         std::error_code error;
         std::string name = (fs::temp_directory_path(error) / "crescente-XXXXXX").string();
         if (error || !mkdtemp(name.data())) return failure(ErrorKind::output, {name, "", "no folder for temporary files can be made", ""});
-        return PrivateFolder(name);
+        return PrivateFolder(fs::canonical(name, error));
     }
     PrivateFolder(PrivateFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
     ~PrivateFolder() {
@@ -92,7 +93,7 @@ Expected<void> serve(const ServerOptions& options, const std::function<void(cons
     FileLibrary::Places places = options.places;
     places.recent = places.recent && !state.wide;
     state.files = std::make_shared<FileLibrary>(std::move(places));
-    Sessions sessions(network, options.limits, folder->path(), options.request, state.files);
+    Sessions sessions(network, options.limits, folder->path(), state.token, options.request, state.files);
     state.sessions = &sessions;
 
     net::signal_set signals(network, SIGINT, SIGTERM);
@@ -103,10 +104,12 @@ Expected<void> serve(const ServerOptions& options, const std::function<void(cons
         sessions.end("the program ends");
     });
     net::co_spawn(network, accept(acceptor, state), net::detached);
+    const auto more_to_come = net::make_work_guard(network);  // viewers' threads tell their end by way of it
     ready(page_address(acceptor.local_endpoint(), state.token), folder->path());
     while (acceptor.is_open() || !sessions.empty()) network.run_one();
     // What pages are still to be told gets a moment; then connections end with the network.
-    network.run_for(std::chrono::milliseconds(200));
+    constexpr auto moment = std::chrono::milliseconds(200);
+    network.run_for(moment);
     return {};
 }
 

@@ -14,8 +14,8 @@ constexpr std::size_t key_bytes = 15;
 
 }  // namespace
 
-Sessions::Sessions(boost::asio::io_context& network, SessionLimits limits, std::filesystem::path folder, SceneRequest request, std::shared_ptr<FileLibrary> files)
-    : network_(network), limits_(limits), folder_(std::move(folder)), request_(std::move(request)), files_(std::move(files)), timer_(network) {
+Sessions::Sessions(boost::asio::io_context& network, SessionLimits limits, std::filesystem::path folder, std::string token, SceneRequest request, std::shared_ptr<FileLibrary> files)
+    : network_(network), limits_(limits), folder_(std::move(folder)), token_(std::move(token)), request_(std::move(request)), files_(std::move(files)), timer_(network) {
     look_around();
 }
 
@@ -69,7 +69,7 @@ Sessions::Entry* Sessions::begin() {
             entries_.erase(found);
         });
     };
-    entry.viewer = std::make_unique<Viewer>(ViewerSettings{key, request_, files_, entry.folder / "uploads", entry.folder / "exports"}, std::move(outlet));
+    entry.viewer = std::make_unique<Viewer>(ViewerSettings{key, token_, request_, files_, entry.folder / "uploads", entry.folder / "exports"}, std::move(outlet));
     return &entry;
 }
 

@@ -37,7 +37,7 @@ public:
     };
 
     // `folder`: a private one, for the folders of the sessions.
-    Sessions(boost::asio::io_context& network, SessionLimits limits, std::filesystem::path folder, SceneRequest request, std::shared_ptr<FileLibrary> files);
+    Sessions(boost::asio::io_context& network, SessionLimits limits, std::filesystem::path folder, std::string token, SceneRequest request, std::shared_ptr<FileLibrary> files);
 
     // The session of the key; null if there is none, or it is being given up.
     Entry* find(const std::string& key);
@@ -60,6 +60,7 @@ private:
     boost::asio::io_context& network_;
     SessionLimits limits_;
     std::filesystem::path folder_;
+    std::string token_;
     SceneRequest request_;
     std::shared_ptr<FileLibrary> files_;
     std::map<std::string, Entry> entries_;

@@ -38,7 +38,7 @@ struct Outlet {
 
 // What a viewer is made with.
 struct ViewerSettings {
-    std::string key;                     // of the session, in addresses
+    std::string key, token;              // of the session and of the server, in addresses
     SceneRequest request;                // how scenes are read; its file is what is opened at first, if there is one
     std::shared_ptr<FileLibrary> files;  // what may be opened
     std::filesystem::path uploads;       // folder of what the page uploaded

@@ -3,8 +3,10 @@
 
 #include "app/cli/load.h"
 #include "app/server/studio_edits.h"
+#include "app/server/trees_json.h"
 #include "app/server/viewer_work.h"
 #include "io/edit_text.h"
+#include "io/panorama_file.h"
 
 namespace crescente::app {
 namespace {
@@ -29,6 +31,7 @@ void Viewer::Work::attach(std::uint32_t page) {
     unshown_ = true;
     next_frame_ = next_progress_ = Clock::now();
     progress_untold_ = true;
+    opened_ = session_.has_value();
     if (session_) untold_ = SceneParts::all();
 }
 
@@ -68,14 +71,20 @@ void Viewer::Work::carry_out(Message message) {
         return;
     }
     if (const auto* at = std::get_if<PickAt>(&request)) return say_.text(picked_reply(session_->pick(at->x, at->y), session_->scene(), message.id));
-    if (const auto* at = std::get_if<ReplayAt>(&request)) return say_.text(reply("replayed", {{"text", session_->describe(at->x, at->y)}}, message.id));
+    if (const auto* at = std::get_if<ReplayAt>(&request)) return replay(message.id, at->x, at->y);
     if (const auto* studio = std::get_if<SetStudio>(&request)) return set_studio(message, studio->name);
+    if (const auto* ground = std::get_if<SetGround>(&request)) return set_ground(message, ground->ground);
     if (const auto* environment = std::get_if<EnvironmentFile>(&request)) return set_environment_file(message, environment->file);
+    if (auto* wanted = std::get_if<Export>(&request)) return begin_export(message, std::move(*wanted));
+    if (const auto* cancel = std::get_if<CancelExport>(&request)) return cancel_export(cancel->number);
 }
 
 void Viewer::Work::open(const std::string& name, const MessageId& id) {
     const auto found = settings_.files->find(name, settings_.uploads);
     if (!found) return say_error(found.error(), id);
+    if (name.starts_with("upload/")) {
+        if (const auto allowed = check_upload(*found, *settings_.files, settings_.uploads); !allowed) return say_error(allowed.error(), id);
+    }
     io::ReadOptions options;
     options.cache = settings_.request.cache;
     options.cancelled = [this] { return box_.stopping_.load(); };
@@ -97,7 +106,6 @@ void Viewer::Work::open(const std::string& name, const MessageId& id) {
         if (box_.orders_.view) wanted_view_ = *box_.orders_.view;
     }
     scene::Settings& settings = loaded->scene.settings;
-    settings.order = scene::Order::even;
     if (wanted_view_.width > 0) settings.width = wanted_view_.width, settings.height = wanted_view_.height;
     if (wanted_level_) settings.level = *wanted_level_;
     auto session = render::Session::open(std::move(loaded->scene));
@@ -118,6 +126,7 @@ void Viewer::Work::open(const std::string& name, const MessageId& id) {
     fresh_from_ = 0;
     grown_seconds_ = 0;
     ++revision_;
+    opened_ = true;
     untold_ = SceneParts::all();
     whole_first_ = unshown_ = progress_untold_ = true;
     next_frame_ = Clock::now();
@@ -218,7 +227,8 @@ void Viewer::Work::take_view() {
 void Viewer::Work::take_look() {
     if (!look_ || !session_) return;
     if (!progress_.first_picture && !whole_first_) return;
-    Look look = std::move(*std::exchange(look_, {}));
+    Look look = std::move(*look_);
+    look_.reset();
     auto edits = io::read_edit(edit_of("camera", std::move(look.camera)), session_->scene(), {});
     if (!edits) return say_error(edits.error(), {});
     looks_ = look.number;
@@ -231,9 +241,11 @@ void Viewer::Work::take_look() {
 void Viewer::Work::set_until(const MessageId& id, scene::Level level) {
     wanted_level_ = level;
     scene::Settings settings = session_->scene().settings;
+    const auto begun = level > settings.level ? fresh_from_ : std::nullopt;
     settings.level = level;
     const auto report = change_unseen({scene::SetSettings{settings}});
     if (!report) return say_error(report.error(), id);
+    if (begun) fresh_from_ = begun;  // it is still a fresh picture that grows
     untold_.settings = true;
     say_.text(edited_reply(*report, {history_.undoable(), history_.redoable()}, id));
 }
@@ -244,14 +256,29 @@ void Viewer::Work::set_studio(const Message& message, const std::optional<std::s
     apply(message, std::move(*edits));
 }
 
-void Viewer::Work::set_environment_file(const Message& message, const std::string& file) {
-    const auto found = settings_.files->find(file, settings_.uploads);
-    if (!found) return say_error(found.error(), message.id);
-    io::Json value = io::Json::make_object();
-    value.object()->push_back({"image", io::Json(found->string())});
-    auto edits = io::read_edit(edit_of("environment", std::move(value)), session_->scene(), file_);
+void Viewer::Work::set_ground(const Message& message, scene::Ground ground) {
+    auto edits = ground_edits(session_->scene(), ground);
     if (!edits) return say_error(edits.error(), message.id);
     apply(message, std::move(*edits));
+}
+
+void Viewer::Work::set_environment_file(const Message& message, const std::optional<std::string>& file) {
+    scene::Environment around = session_->scene().environment.value_or(scene::Environment{});
+    around.sky.clear(), around.image.clear();
+    around.panorama.reset();
+    if (file) {
+        const auto found = settings_.files->find(*file, settings_.uploads);
+        if (!found) return say_error(found.error(), message.id);
+        around.image = found->string();
+        const auto warnings = io::load_panorama(around, {});
+        if (!warnings) return say_error(warnings.error(), message.id);
+    }
+    apply(message, {scene::SetEnvironment{std::move(around)}});
+}
+
+void Viewer::Work::replay(const MessageId& id, int x, int y) {
+    const render::PixelTrees trees = session_->trees(x, y);
+    say_.text(reply("replayed", {{"text", render::text_of(trees)}, {"trees", trees_json(trees, session_->scene().unit.metres)}}, id));
 }
 
 }  // namespace crescente::app

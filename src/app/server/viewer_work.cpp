@@ -1,6 +1,9 @@
 #include "app/server/viewer_work.h"
 
 #include <algorithm>
+#include <new>
+
+#include "render/level.h"
 
 namespace crescente::app {
 namespace {
@@ -11,27 +14,53 @@ constexpr std::size_t most_backlog = std::size_t{1} << 16;  // bytes of text, pa
 constexpr std::size_t most_undo = 1000;
 constexpr auto between_progress = std::chrono::milliseconds(100);
 
+const char* level_name(scene::Level level) { return render::levels()[static_cast<std::size_t>(level)].name; }
+
 }  // namespace
 
 Viewer::Work::Work(Viewer& box, ViewerSettings settings, Outlet outlet)
     : box_(box), settings_(std::move(settings)), say_(std::move(outlet)), history_(most_undo), frames_(0) {}
 
 void Viewer::Work::run() {
-    if (!settings_.request.file.empty()) open(settings_.request.file, {});
+    begun_ = settings_.request.file.empty();
     while (!box_.stopping_) {
         Orders orders = take_orders();
         if (box_.stopping_) return;
-        if (orders.look) look_ = std::move(orders.look);
-        if (orders.view) view_ = orders.view;
-        if (orders.page) attach(*orders.page);
-        for (Message& message : orders.messages) carry_out(std::move(message));
-        take_view();
-        take_look();
-        tell_scene();
-        grow();
-        show();
-        tell_progress();
+        // What is thrown past the libraries is the end of memory, or a defect: it costs the scene, not the server.
+        try {
+            serve(std::move(orders));
+        } catch (const std::bad_alloc&) {
+            give_up_scene({ErrorKind::resource, {{"", "", "not enough memory for the scene: it was closed", "a smaller window, a lower level, --memory"}}});
+        } catch (const std::exception& error) {
+            give_up_scene({ErrorKind::internal, {{"", "", std::string("defect in Crescente: ") + error.what(), "please report it; the scene was closed"}}});
+        }
     }
+}
+
+void Viewer::Work::give_up_scene(const Error& error) {
+    exports_.clear();
+    history_.forget();
+    session_.reset();
+    frames_.begin_anew();
+    say_error(error, {});
+}
+
+void Viewer::Work::serve(Orders orders) {
+    if (orders.look) look_ = std::move(orders.look);
+    if (orders.view) view_ = orders.view, wanted_view_ = *orders.view;
+    if (orders.page) attach(*orders.page);
+    if (!begun_ && say_.page) {  // once there is somebody to hear of it
+        begun_ = true;
+        open(settings_.request.file, {});
+    }
+    for (Message& message : orders.messages) carry_out(std::move(message));
+    take_view();
+    take_look();
+    tell_scene();
+    grow();
+    show();
+    tell_progress();
+    tell_exports();
 }
 
 // Those that wait; if there is nothing else to do, the next ones.
@@ -48,23 +77,27 @@ Viewer::Orders Viewer::Work::take_orders() {
     return std::exchange(box_.orders_, {});
 }
 
+// A pause leaves a whole picture behind.
+bool Viewer::Work::may_grow() const { return session_ && say_.page && !progress_.done && !(paused_ && progress_.first_picture); }
+
 bool Viewer::Work::has_work(Clock::time_point now) const {
     if (!session_ || !say_.page) return false;
-    if (!paused_ && !progress_.done) return true;
+    if (may_grow()) return true;
     return wake_time() <= now;
 }
 
 Viewer::Work::Clock::time_point Viewer::Work::wake_time() const {
     auto wake = Clock::time_point::max();
     if (!session_ || !say_.page) return wake;
-    if (unshown_ && sent_ - shown_ < most_unshown && !(whole_first_ && !progress_.first_picture)) wake = next_frame_;
+    if (!exports_.empty()) wake = next_exports_;
+    if (unshown_ && sent_ - shown_ < most_unshown && !(whole_first_ && !progress_.first_picture)) wake = std::min(wake, next_frame_);
     if (progress_untold_) wake = std::min(wake, next_progress_);
     if (untold_.any()) wake = std::min(wake, Clock::now() + between_progress / 5);  // the page is slow: look again soon
     return wake;
 }
 
 void Viewer::Work::grow() {
-    if (!session_ || !say_.page || paused_ || progress_.done) return;
+    if (!may_grow()) return;
     const auto start = Clock::now();
     progress_ = session_->advance({start + quantum, &box_.hurry_});
     grown_seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
@@ -81,19 +114,23 @@ void Viewer::Work::show() {
     whole_first_ = false;
     const auto start = Clock::now();
     unshown_ = false;
-    if (!frames_.look(*session_, progress_.done)) return;
+    // A quarter of the time at most goes into showing.
+    const auto take_time = [&] {
+        constexpr auto shortest = std::chrono::milliseconds(20);
+        next_frame_ = Clock::now() + std::max<Clock::duration>(shortest, 3 * (Clock::now() - start));
+    };
+    if (!frames_.look(*session_, progress_.done)) return take_time();
     auto bytes = frames_.make(sent_ + 1, looks_);
     if (!bytes) return say_error(bytes.error(), {});
     ++sent_;
     say_.frame(std::move(*bytes));
-    // A quarter of the time at most goes into showing; the next first picture does not wait.
-    constexpr auto shortest = std::chrono::milliseconds(20);
-    next_frame_ = Clock::now() + std::max<Clock::duration>(shortest, 3 * (Clock::now() - start));
+    take_time();
 }
 
 void Viewer::Work::tell_scene() {
     if (!session_ || !say_.page || !untold_.any() || say_.backlog() > most_backlog) return;
     ReplyJson json = scene_json(session_->scene(), std::exchange(untold_, {}));
+    if (std::exchange(opened_, false)) json["opened"] = true;
     json["file"] = title_;
     json["revision"] = revision_;
     json["can_undo"] = history_.undoable();
@@ -120,6 +157,7 @@ ReplyJson Viewer::Work::progress_json(const render::Stats& stats, double rays_pe
     const std::uint64_t rays = stats.rays.total();
     return {{"level", progress_.level},
             {"fraction", progress_.fraction},
+            {"until", level_name(session_->scene().settings.level)},
             {"done", progress_.done},
             {"paused", paused_},
             {"first_picture", progress_.first_picture},

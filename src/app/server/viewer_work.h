@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "app/server/export_job.h"
 #include "app/server/file_library.h"
 #include "app/server/frame_maker.h"
 #include "app/server/scene_json.h"
@@ -21,6 +22,9 @@ private:
 
     // --- viewer_work.cpp: the loop
     Orders take_orders();
+    void serve(Orders orders);
+    void give_up_scene(const Error& error);
+    bool may_grow() const;
     bool has_work(Clock::time_point now) const;
     Clock::time_point wake_time() const;
     void grow();
@@ -28,6 +32,11 @@ private:
     void tell_progress();
     void tell_scene();
     ReplyJson progress_json(const render::Stats& stats, double rays_per_second) const;
+
+    // --- viewer_exports.cpp
+    void begin_export(const Message& message, Export wanted);
+    void cancel_export(std::uint32_t number);
+    void tell_exports();
 
     // --- viewer_orders.cpp: what the page asks for
     void attach(std::uint32_t page);
@@ -38,7 +47,9 @@ private:
     void walk_history(const MessageId& id, int times, bool undo);
     void set_until(const MessageId& id, scene::Level level);
     void set_studio(const Message& message, const std::optional<std::string>& name);
-    void set_environment_file(const Message& message, const std::string& file);
+    void set_ground(const Message& message, scene::Ground ground);
+    void set_environment_file(const Message& message, const std::optional<std::string>& file);
+    void replay(const MessageId& id, int x, int y);
     void apply(const Message& message, std::vector<scene::Edit> edits);
     Expected<render::EditReport> change_unseen(std::vector<scene::Edit> edits);  // what undo does not take back
     void keep_view();
@@ -59,6 +70,7 @@ private:
     Problems warnings_;         // of reading it
     std::uint64_t revision_ = 0;
 
+    bool begun_ = false;             // the model of the command line was opened
     bool paused_ = false;
     std::optional<Look> look_;       // the newest that was not taken yet
     std::optional<ViewSize> view_;
@@ -73,6 +85,7 @@ private:
     bool whole_first_ = false;            // nothing is sent before the whole picture is there
     Clock::time_point next_frame_{}, next_progress_{};
 
+    bool opened_ = false;                 // the page does not know the scene that is open at all
     SceneParts untold_;                   // parts of the scene that the page does not know as they are
     bool progress_untold_ = false;
     double grown_seconds_ = 0;            // since the edit
@@ -81,6 +94,15 @@ private:
     Clock::time_point rays_told_at_{};
     std::optional<std::uint64_t> fresh_from_;  // rays when all trees began anew, if nothing was edited since
     std::optional<std::uint64_t> fresh_rays_;
+
+    struct Running {
+        std::unique_ptr<ExportJob> job;
+        MessageId id;
+        double told = -1;
+    };
+    std::vector<Running> exports_;
+    std::uint32_t last_export_ = 0;
+    Clock::time_point next_exports_{};
 };
 
 }  // namespace crescente::app

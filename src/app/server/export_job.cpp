@@ -1,0 +1,76 @@
+#include "app/server/export_job.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <new>
+
+#include "app/cli/picture_options.h"
+#include "base/atomic_file.h"
+#include "io/image_file.h"
+#include "io/scene_file.h"
+#include "render/session.h"
+#include "scene/hierarchy.h"
+
+namespace crescente::app {
+namespace {
+
+// A CAD part is known by its file alone.
+Expected<void> check_writable(const scene::Scene& scene, const std::filesystem::path& file) {
+    bool exact = false;
+    scene::for_each_appearance(scene, [&](std::uint32_t node, const math::Affine&, const std::vector<scene::MaterialId>&) {
+        exact |= std::holds_alternative<geometry::Brep>(scene.shapes[scene.nodes[node].shape.value].shape);
+    });
+    if (!exact) return {};
+    return failure(ErrorKind::unsupported, {file.filename().string(), "", "the exact parts of CAD files cannot be written to JSON", "export pictures, or keep the CAD file and its edits"});
+}
+
+}  // namespace
+
+int background_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 4); }
+
+ExportJob::ExportJob(std::uint32_t number, scene::Scene scene, std::filesystem::path file) : number_(number), file_(std::move(file)) {
+    thread_ = std::thread([this, made = std::move(scene)]() mutable {
+        constexpr int patient = 10;
+        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), patient);  // of this thread alone, as Linux has it; if that fails it is merely less polite
+        try {
+            result_ = run(std::move(made));
+        } catch (const std::bad_alloc&) {
+            result_ = failure(ErrorKind::resource, {file_.filename().string(), "", "not enough memory", "try a smaller picture"});
+        }
+        done_ = true;
+    });
+}
+
+ExportJob::~ExportJob() {
+    stopping_ = true;
+    thread_.join();
+}
+
+Expected<void> ExportJob::run(scene::Scene scene) {
+    if (file_.extension() == ".json") {
+        if (const auto writable = check_writable(scene, file_); !writable) return writable;
+        return write_atomically(file_, io::write_scene_text(scene));
+    }
+    const bool layers = needs_all_layers({file_.string()});
+    if (const auto writable = check_alpha({file_.string()}, scene); !writable) return writable;
+    if (const auto writable = io::can_write(file_); !writable) return writable;
+    prefer_finish(scene.settings, layers);
+    scene.settings.threads = background_threads();
+    auto session = render::Session::open(std::move(scene));
+    if (!session) return tl::unexpected(session.error());
+    render::Progress progress;
+    while (!progress.done) {
+        constexpr auto between = std::chrono::milliseconds(50);
+        progress = session->advance({std::chrono::steady_clock::now() + between, &stopping_});
+        fraction_ = progress.fraction;
+        if (stopping_) return {};
+    }
+    const scene::Image picture = session->picture(layers);
+    io::ImageOptions how = image_options({}, session->scene(), picture);
+    how.metadata = {{"Software", std::string("Crescente ") + CRESCENTE_VERSION}};
+    return io::write_image(picture, file_, how);
+}
+
+}  // namespace crescente::app
