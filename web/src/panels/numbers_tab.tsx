@@ -18,7 +18,7 @@ export function NumbersTab() {
   const progress = useStore((s) => s.progress);
   const lastEdit = useStore((s) => s.lastEdit);
   const layer = useStore((s) => s.layer);
-  const layers = useStore((s) => s.welcome?.layers ?? ['color', 'samples', 'influence', 'level']);
+  const layers = useStore((s) => s.welcome?.layers) ?? [];
   const { pixel, replayed, replaying } = useStore();
   const showLayer = (next: string) => {
     if (send({ layer: next })) set({ layer: next });

@@ -22,7 +22,7 @@ const levelDocs: Record<string, string> = {
 
 export function StatusBar() {
   const progress = useStore((s) => s.progress);
-  const levels = useStore((s) => s.welcome?.levels ?? []);
+  const levels = useStore((s) => s.welcome?.levels) ?? [];
   const settingsLevel = useStore((s) => String(s.scene?.settings.level ?? levelByDefault));
   const until = progress?.until ?? settingsLevel;
   const state = !progress ? 'starting' : progress.paused ? 'paused' : progress.done ? 'finished' : 'growing';

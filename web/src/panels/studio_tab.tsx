@@ -4,7 +4,6 @@ import { IconUpload } from '@tabler/icons-react';
 import { environmentFields, labelOf, settingsFields } from '../protocol/fields';
 import { edit, setEnvironmentField, setSetting } from '../state/edits';
 import { chooseEnvironment, uploadEnvironment } from '../state/files';
-import { groundOf, setGround, type Ground } from '../state/ground';
 import { useStore } from '../state/store';
 import { FieldList } from './fields/field_list';
 import { GroupedFields } from './fields/grouped_fields';
@@ -15,24 +14,23 @@ const pick = (fields: typeof environmentFields, names: string[]) => names.map((n
 
 export function StudioTab() {
   const scene = useStore((s) => s.scene);
-  const studios = useStore((s) => s.welcome?.studios ?? ['default', 'softbox', 'three-point', 'overhead', 'tent', 'turntable']);
-  const environments = useStore((s) => s.files?.environments ?? []);
+  const studios = useStore((s) => s.welcome?.studios) ?? [];
+  const environments = useStore((s) => s.files?.environments) ?? [];
   const changeEnvironment = useDrag(setEnvironmentField, (field) => `Environment: ${field.replaceAll('_', ' ')}`);
   const changeSetting = useDrag(setSetting, (field) => `Picture: ${field.replaceAll('_', ' ')}`);
   if (!scene) return null;
   const environment = scene.environment ?? {};
-  const ground = groundOf(scene);
   const image = String(environment.image ?? '');
-  const known = environments.find((one) => image !== '' && image.endsWith(one.title ?? one.name));
+  const known = environments.find((one) => image !== '' && image.endsWith(one.title));
   const hasImage = image !== '' || Boolean(environment.sky);
   return (
     <div className="scroll">
       <Stack className="section" gap={9}>
-        <Select label="Studio" placeholder="Put the model into a studio" data={studios.map((name) => ({ value: name, label: labelOf(name) }))} value={null} onChange={(name) => name && void edit({ studio: name }, `Studio: ${labelOf(name)}`)} data-testid="studio" />
-        {ground !== null && (
+        <Select label="Studio" placeholder="The scene's own lights" data={studios.map((name) => ({ value: name, label: labelOf(name) }))} value={scene.studio ?? null} onChange={(name) => name && void edit({ studio: name }, `Studio: ${labelOf(name)}`)} data-testid="studio" />
+        {scene.ground !== undefined && (
           <div>
             <Text size="xs" mb={3}>Ground</Text>
-            <SegmentedControl fullWidth size="xs" aria-label="Ground" value={ground} onChange={(next) => void setGround(next as Ground)} data={[{ value: 'solid', label: 'Solid' }, { value: 'catch', label: 'Shadow only' }, { value: 'none', label: 'None' }]} />
+            <SegmentedControl fullWidth size="xs" aria-label="Ground" value={scene.ground} onChange={(ground) => void edit({ ground }, `Ground: ${ground}`)} data={[{ value: 'solid', label: 'Solid' }, { value: 'catch', label: 'Shadow only' }, { value: 'none', label: 'None' }]} />
           </div>
         )}
         <Group gap={6} wrap="nowrap">
@@ -44,10 +42,10 @@ export function StudioTab() {
       <Stack className="section" gap={9}>
         <Select
           label="Surroundings"
-          data={[{ value: '', label: 'Gradient or sky' }, ...environments.map((one) => ({ value: one.file ?? one.name, label: one.title ?? one.name })), ...(image && !known ? [{ value: image, label: image.slice(image.lastIndexOf('/') + 1) }] : [])]}
-          value={known ? (known.file ?? known.name) : image}
+          data={[{ value: '', label: 'Gradient or sky' }, ...environments.map((one) => ({ value: one.file, label: one.title })), ...(image && !known ? [{ value: image, label: image.slice(image.lastIndexOf('/') + 1) }] : [])]}
+          value={known ? known.file : image}
           allowDeselect={false}
-          onChange={(file) => void (file ? chooseEnvironment(file) : edit(setEnvironmentField('image', ''), 'Environment: gradient'))}
+          onChange={(file) => void chooseEnvironment(file || null)}
         />
         <FileButton accept=".hdr,.exr" onChange={(file) => file && void uploadEnvironment(file)}>
           {(props) => <Button {...props} variant="default" size="xs" leftSection={<IconUpload size={14} />}>Picture of surroundings (.hdr, .exr)</Button>}

@@ -14,8 +14,8 @@ const views: [StandardView, string][] = [['front', '1'], ['back', '2'], ['right'
 
 export function TopBar() {
   const name = useStore((s) => (s.scene ? titleOf(s.scene) : ''));
-  const canUndo = useStore((s) => s.scene?.can_undo ?? false);
-  const canRedo = useStore((s) => s.scene?.can_redo ?? false);
+  const canUndo = useStore((s) => Boolean(s.scene?.can_undo));
+  const canRedo = useStore((s) => Boolean(s.scene?.can_redo));
   const { tool, snap, orthographic, turntable, leftOpen, rightOpen } = useStore();
   const toolButton = (own: Tool) => ({ active: tool === own, onClick: () => set({ tool: own }) });
   return (

@@ -6,7 +6,7 @@ import { bytes } from '../format';
 import { listFolder, openFile, receiveFiles } from '../state/files';
 import { useStore } from '../state/store';
 
-const lastName = (path: string) => path.slice(path.lastIndexOf('/', path.length - 2) + 1);
+const join = (folder: string | null, name: string) => (folder === null ? name : `${folder.replace(/\/$/, '')}/${name}`);
 
 export function FileChoices() {
   const files = useStore((s) => s.files);
@@ -35,18 +35,18 @@ export function FileChoices() {
       <SimpleGrid cols={{ base: 1, sm: 2 }} spacing="lg">
         {examples.length > 0 && (
           <Choices title="Examples">
-            {examples.map((one) => <Choice key={one.name} icon={<IconCube size={18} />} name={one.title ?? one.name} testId="example" onClick={() => void openFile(one.file ?? one.name)} />)}
+            {examples.map((one) => <Choice key={one.name} icon={<IconCube size={18} />} name={one.title} testId="example" onClick={() => void openFile(one.file)} />)}
           </Choices>
         )}
         {recent.length > 0 && (
           <Choices title="Recent">
-            {recent.map((one) => <Choice key={one.name} icon={<IconClock size={18} />} name={one.title ?? lastName(one.name)} detail={one.name} onClick={() => void openFile(one.file ?? one.name)} />)}
+            {recent.map((one) => <Choice key={one.name} icon={<IconClock size={18} />} name={one.title} detail={one.file} onClick={() => void openFile(one.file)} />)}
           </Choices>
         )}
         {files && (files.folders.length > 0 || files.files.length > 0 || files.folder) && (
           <Choices title="Folders" header={<FolderPath folder={files.folder} />}>
-            {files.folders.map((name) => <Choice key={name} icon={<IconFolder size={18} />} name={files.folder ? lastName(name) : name} onClick={() => void listFolder(name)} />)}
-            {files.files.map((one) => <Choice key={one.name} icon={<IconFile3d size={18} />} name={one.title ?? lastName(one.name)} detail={one.bytes !== undefined ? bytes(one.bytes) : undefined} testId="file" onClick={() => void openFile(one.file ?? one.name)} />)}
+            {files.folders.map((name) => <Choice key={name} icon={<IconFolder size={18} />} name={name} onClick={() => void listFolder(join(files.folder, name))} />)}
+            {files.files.map((one) => <Choice key={one.name} icon={<IconFile3d size={18} />} name={one.title} detail={one.bytes !== undefined ? bytes(one.bytes) : undefined} testId="file" onClick={() => void openFile(one.file)} />)}
             {files.folders.length + files.files.length === 0 && <Text size="sm" c="dimmed" px={12} py={8}>No models in this folder</Text>}
           </Choices>
         )}

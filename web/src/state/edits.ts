@@ -62,7 +62,7 @@ export async function removeSelection(): Promise<void> {
 export async function duplicateSelection(): Promise<void> {
   const { selection, scene } = get();
   if (!scene || selection.length === 0) return;
-  const { low, high } = scene.model ?? { low: [0, 0, 0], high: [1, 1, 1] };
+  const { low, high } = scene.bounds ?? { low: [0, 0, 0], high: [1, 1, 1] };
   const size = Math.max(...high.map((x, i) => x - low[i]));
   const copies = selection.map((path) => {
     const index = leafOf(path);

@@ -10,7 +10,7 @@ export async function openFile(file: string): Promise<void> {
   try {
     await connection.request({ open: file });
   } catch (error) {
-    const failure: Failure = error instanceof Refused ? error.failure : { kind: 'open', problems: [{ reason: error instanceof Error ? error.message : String(error) }] };
+    const failure: Failure = error instanceof Refused ? error.failure : { kind: 'input', problems: [{ file: '', place: '', hint: '', reason: error instanceof Error ? error.message : String(error) }] };
     set({ opening: null, openFailure: { file, failure } });
   }
 }
@@ -55,6 +55,6 @@ export async function uploadEnvironment(file: File): Promise<void> {
   if (name !== null) await chooseEnvironment(name);
 }
 
-export async function chooseEnvironment(file: string): Promise<void> {
+export async function chooseEnvironment(file: string | null): Promise<void> {
   if (await ask({ environment_file: file })) set({ lastEdit: 'Environment' });
 }

@@ -15,7 +15,7 @@ export const lightKinds = [
 const metres: Record<string, number> = { um: 1e-6, mm: 1e-3, cm: 1e-2, m: 1, km: 1e3, in: 0.0254, ft: 0.3048 };
 
 export function newLight(scene: Scene, kind: string): Named {
-  const box = scene.model ? boxOf(scene.model) : null;
+  const box = scene.bounds ? boxOf(scene.bounds) : null;
   const middle = box ? box.getCenter(new Vector3()) : new Vector3();
   const radius = box ? box.getSize(new Vector3()).length() / 2 : 1;
   const offset = new Vector3(-0.9, 1.5, 1.2).multiplyScalar(radius);

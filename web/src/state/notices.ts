@@ -1,6 +1,6 @@
 // Messages to the user that come and go.
 import { notifications } from '@mantine/notifications';
-import type { Failure } from '../protocol/messages';
+import type { Failure, Incoming } from '../protocol/messages';
 
 export function complain(failure: Failure): void {
   for (const problem of failure.problems.slice(0, 4)) {
@@ -15,4 +15,9 @@ export function tell(message: string): void {
 
 export function warn(title: string, message: string): void {
   notifications.show({ color: 'red', title, message, autoClose: 10000 });
+}
+
+// What the program noticed when it read a file.
+export function mention(warning: NonNullable<NonNullable<Incoming['scene']>['warnings']>[number]): void {
+  notifications.show({ color: 'yellow', title: warning.reason, message: [warning.place, warning.hint].filter(Boolean).join(' · '), autoClose: 8000 });
 }

@@ -1,7 +1,7 @@
 // The one connection of the page, and what its messages do to the store.
 import { Connection, ConnectionLost, Refused } from '../protocol/socket';
 import type { Incoming, Outgoing, Scene } from '../protocol/messages';
-import { complain } from './notices';
+import { complain, mention } from './notices';
 import { get, set } from './store';
 
 type FrameSink = (data: ArrayBuffer) => void;
@@ -46,15 +46,9 @@ export async function ask(message: Outgoing): Promise<Incoming | undefined> {
 }
 
 function receive(message: Incoming): void {
-  if (message.welcome) {
-    set({ welcome: message.welcome, closedReason: null });
-    anew = true;
-  }
+  if (message.welcome) set({ welcome: message.welcome, closedReason: null });
   if (message.files) set({ files: message.files });
-  if (message.opening) {
-    set({ opening: message.opening.file, openFailure: null });
-    anew = true;
-  }
+  if (message.opening) set({ opening: message.opening.file, openFailure: null });
   if (message.scene) receiveScene(message.scene);
   if (message.edited) {
     const { can_undo, can_redo } = message.edited;
@@ -70,17 +64,13 @@ function receive(message: Incoming): void {
   if (message.closed) set({ closedReason: message.closed.reason });
 }
 
-// Whether the next scene is another one, or the same after the connection was lost; later ones have only what an edit changed.
-let anew = true;
-
-function receiveScene(news: Partial<Scene>): void {
+function receiveScene({ opened, warnings, ...members }: NonNullable<Incoming['scene']>): void {
   const { scene: old, opening } = get();
-  const members = withDefaults(news);
-  if (old && !(anew && members.objects)) {
-    set({ scene: { ...old, ...members } });
+  for (const warning of warnings ?? []) mention(warning);
+  if (old && !opened) {
+    set({ scene: { ...old, ...members } as Scene });
     return;
   }
-  anew = false;
   const again = old !== null && opening === null && old.file === members.file;
   set({ scene: members as Scene, opening: null, openFailure: null });
   if (!again) set({ selection: [], hovered: null, light: null, isolated: null, replayed: null, pixel: null, point: null, lastEdit: null, layer: 'color', expanded: new Set((members.roots ?? []).map(String)) });
@@ -89,10 +79,3 @@ function receiveScene(news: Partial<Scene>): void {
 
 // What the scene is called: by itself, or as its file.
 export const titleOf = (scene: Scene) => scene.name || scene.file.slice(scene.file.lastIndexOf('/') + 1);
-
-// Members of objects that are left out have their defaults.
-function withDefaults(members: Partial<Scene>): Partial<Scene> {
-  if (!members.objects) return members;
-  const whole = { name: '', visible: true, shape: null, material: null, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], bounds: null, children: [] };
-  return { ...members, objects: members.objects.map((object) => ({ ...whole, ...object })) };
-}

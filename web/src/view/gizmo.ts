@@ -51,8 +51,8 @@ export class Gizmo {
     else if (scene && state.selection.length > 0 && state.tool !== 'select') this.holdPart(state, state.selection[state.selection.length - 1]);
     if (this.toEdit) this.controls.attach(this.proxy);
     else this.controls.detach();
-    if (!scene?.model) return;
-    const size = boxOf(scene.model).getSize(new Vector3()).length();
+    if (!scene?.bounds) return;
+    const size = boxOf(scene.bounds).getSize(new Vector3()).length();
     this.controls.setTranslationSnap(state.snap ? snapOf(size) : null);
     this.controls.setRotationSnap(state.snap ? Math.PI / 12 : null);
   }
@@ -94,7 +94,7 @@ export class Gizmo {
     const turning = far || state.tool === 'rotate';
     this.controls.setMode(turning ? 'rotate' : 'translate');
     this.controls.setSpace(turning ? 'local' : 'world');
-    this.proxy.position.copy(far && state.scene.model ? boxOf(state.scene.model).getCenter(new Vector3()) : position);
+    this.proxy.position.copy(far && state.scene.bounds ? boxOf(state.scene.bounds).getCenter(new Vector3()) : position);
     this.proxy.quaternion.copy(new Quaternion().setFromUnitVectors(down, direction));
     this.toEdit = () =>
       turning

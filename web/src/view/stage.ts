@@ -111,7 +111,7 @@ export class Stage {
     if (!scene) return;
     const box = new Box3();
     if (!all) for (const path of selection) box.union(worldBox(scene, path) ?? new Box3());
-    if (box.isEmpty() && scene.model) box.copy(boxOf(scene.model));
+    if (box.isEmpty() && scene.bounds) box.copy(boxOf(scene.bounds));
     this.navigation.fit(box, freeShare(this.element));
     this.wake();
   }
@@ -184,7 +184,7 @@ export class Stage {
   private takeScene(state: Store): void {
     const { scene } = state;
     if (!scene) return;
-    if (scene.model) this.navigation.setBounds(boxOf(scene.model));
+    if (scene.bounds) this.navigation.setBounds(boxOf(scene.bounds));
     this.navigation.set(scene.camera);
     // Until the camera is moved, the picture is seen by the one of the scene.
     const camera = this.navigation.get();
@@ -198,9 +198,9 @@ export class Stage {
   // A model that was framed for the whole window is stepped back from, once, so far that panels do not cover it.
   private makeRoom(scene: Scene): void {
     const seen = `crescente.seen ${get().welcome?.session} ${scene.file}`;
-    if (!scene.model || sessionStorage.getItem(seen) !== null) return;
+    if (!scene.bounds || sessionStorage.getItem(seen) !== null) return;
     sessionStorage.setItem(seen, '');
-    this.navigation.stepBack(boxOf(scene.model), freeShare(this.element));
+    this.navigation.stepBack(boxOf(scene.bounds), freeShare(this.element));
   }
 
   // Whether it is a camera that the program has from here: then the view is there already, or beyond.
@@ -226,11 +226,11 @@ export class Stage {
         const bounds = scene && objectAt(scene, leafOf(path))?.bounds;
         return scene && bounds ? boxLines(boxOf(bounds), worldOf(scene, path)) : [];
       });
-    if (scene?.model) this.navigation.setBounds(boxOf(scene.model));
+    if (scene?.bounds) this.navigation.setBounds(boxOf(scene.bounds));
     this.overlay.setLines('selected', lines(state.selection), colors.selected, 0.95);
     this.overlay.setLines('hovered', state.hovered && !state.selection.includes(state.hovered) ? lines([state.hovered]) : [], colors.hovered, 0.75);
     const light = scene && state.light !== null ? scene.lights[state.light] : undefined;
-    const reach = scene?.model ? boxOf(scene.model).getSize(new Vector3()).length() / 2 : 1;
+    const reach = scene?.bounds ? boxOf(scene.bounds).getSize(new Vector3()).length() / 2 : 1;
     this.overlay.setLines('light', light && light.kind !== 'directional' ? lightLines(light, reach) : [], colors.light, 0.9);
     this.gizmo.show(state, this.navigation.camera);
     this.marks.refresh(state);
