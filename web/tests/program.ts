@@ -25,7 +25,6 @@ export class Program {
       let complaint = '';
       child.stderr?.on('data', (data) => (complaint += String(data)));
       child.on('exit', (code, signal) => {
-        if (code !== null && code !== 0) console.error(complaint);
         failed(new Error(`crescente view ended with ${code ?? signal}: ${complaint}`));
       });
     });
@@ -83,6 +82,7 @@ export async function visit(page: Page, program: Program): Promise<void> {
 export async function growTo(page: Page, level: string): Promise<void> {
   await page.getByTestId('until').click();
   await page.getByRole('menuitem', { name: new RegExp(`^${level}`, 'i') }).click();
+  await expect(page.getByRole('menu')).toHaveCount(0); // it covers part of the picture
 }
 
 // Finished, and what is shown is without loss.

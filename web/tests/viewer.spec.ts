@@ -1,5 +1,5 @@
 // What users do with the page, from opening a model to exporting its picture.
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { PNG } from 'pngjs';
 import { converged, expect, folder, growTo, model, picture, pixels, run, test, visit } from './program';
@@ -83,6 +83,18 @@ test('a material is changed without a camera ray, and taken back', async ({ page
   await expect.poll(() => pixels(page)).toBe(before);
 });
 
+test('a material of the library is dragged onto a part', async ({ page, start }) => {
+  await visit(page, await start());
+  await growTo(page, 'visible');
+  await converged(page);
+  const before = await pixels(page);
+  await page.getByRole('button', { name: 'brass polished' }).dragTo(page.getByTestId('stage'), { targetPosition: middle });
+  await expect(page.getByTestId('scene-materials').getByRole('button', { name: 'brass polished' })).toBeVisible();
+  await expect(page.getByRole('treeitem', { name: 'plate' })).toHaveAttribute('aria-selected', 'true');
+  await converged(page);
+  expect(await pixels(page)).not.toBe(before);
+});
+
 test('a part is moved by its handles; one drag is one undo', async ({ page, start }) => {
   await visit(page, await start());
   await growTo(page, 'visible');
@@ -144,15 +156,16 @@ test('a light is added, changed and deleted', async ({ page, start }) => {
 });
 
 test('an exported picture is that of the command line, and of the screen', async ({ page, start }) => {
+  // The camera by which the picture is seen is the last that the page told.
+  let camera: Record<string, unknown> = {};
+  page.on('websocket', (socket) => socket.on('framesent', ({ payload }) => {
+    const message = JSON.parse(String(payload)) as { look?: Record<string, unknown> };
+    camera = message.look ?? camera;
+  }));
   await visit(page, await start());
   await growTo(page, 'shadows');
   await converged(page);
   const shown = await picture(page);
-  await page.getByTestId('file-menu').click();
-  const saved = page.waitForEvent('download');
-  await page.getByRole('menuitem', { name: 'Save scene' }).click();
-  const scene = join(folder, 'saved.json');
-  await (await saved).saveAs(scene);
 
   await page.getByRole('button', { name: 'Export picture' }).click();
   await page.getByTestId('export-start').click();
@@ -163,11 +176,23 @@ test('an exported picture is that of the command line, and of the screen', async
   await (await download).saveAs(exported);
 
   const rendered = join(folder, 'rendered.png');
-  run('render', scene, '-o', rendered, '--size', `${shown.width}x${shown.height}`, '--level', 'shadows');
+  const script = join(folder, 'camera.jsonl');
+  writeFileSync(script, `${JSON.stringify({ camera })}\n${JSON.stringify({ picture: rendered })}\n`);
+  run('edit', model, script, '--size', `${shown.width}x${shown.height}`, '--level', 'shadows');
   const [a, b] = [exported, rendered].map((file) => PNG.sync.read(readFileSync(file)));
   expect([a.width, a.height]).toEqual([shown.width, shown.height]);
-  expect(a.data.equals(b.data), 'the exported picture and the one of the command line').toBe(true);
   expect(a.data.equals(shown.data), 'the exported picture and the one on the screen').toBe(true);
+  expect(a.data.equals(b.data), 'the exported picture and the one of the command line').toBe(true);
+});
+
+test('a scene is saved as the command line reads it', async ({ page, start }) => {
+  await visit(page, await start([join(model, '../cornell.json')]));
+  await page.getByTestId('file-menu').click();
+  const saved = page.waitForEvent('download');
+  await page.getByRole('menuitem', { name: 'Save scene' }).click();
+  const scene = join(folder, 'saved.json');
+  await (await saved).saveAs(scene);
+  run('render', scene, '-o', join(folder, 'saved.png'), '--size', '64x64', '--level', 'visible');
 });
 
 test('after a reload the session goes on', async ({ page, start }) => {
