@@ -13,7 +13,8 @@ if(EXISTS ${web}/package-lock.json AND NODE AND NPM)
     add_custom_command(OUTPUT ${embedded}
         COMMAND ${NPM} run build --silent
         COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/tools/embed_page.mjs ${web}/dist ${embedded}
-        DEPENDS ${CMAKE_BINARY_DIR}/page_modules ${page_sources} ${page_settings} ${PROJECT_SOURCE_DIR}/docs/scene.schema.json ${PROJECT_SOURCE_DIR}/tools/embed_page.mjs
+        DEPENDS ${CMAKE_BINARY_DIR}/page_modules ${page_sources} ${page_settings} ${PROJECT_SOURCE_DIR}/tools/embed_page.mjs
+            ${PROJECT_SOURCE_DIR}/docs/scene.schema.json ${PROJECT_SOURCE_DIR}/docs/protocol.schema.json
         WORKING_DIRECTORY ${web} COMMENT "Making the viewer's page" VERBATIM)
     list(FILTER sources EXCLUDE REGEX "no_page_files.cpp$")
     list(APPEND sources ${embedded})

