@@ -1,0 +1,84 @@
+// How long after the hand the picture follows: pointer move to changed pixels, material slider to changed pixels. At 1280x720, in Chromium, with the program on the same machine.
+//
+//     npm run bench                     the small assembly of scenes/, or MODEL=part.step npm run bench
+//
+// The time is from the browser's own stamp of the event until the beginning of the frame after the one in which pixels changed, when they are on the screen.
+import { expect, model, Program, test, visit } from '../tests/program';
+import type { Page } from '@playwright/test';
+
+const rounds = 60;
+
+type Watch = { begin: number; warped: number; drawn: number };
+
+// Notes, from each stamped event on, when the picture was moved or drawn next.
+const watch = (type: string) => {
+  const page = window as unknown as { watched: Watch; };
+  const canvas = document.querySelector<HTMLElement>('.picture');
+  const stage = document.querySelector<HTMLElement>('.stage');
+  const empty = () => ({ begin: 0, warped: 0, drawn: 0 });
+  page.watched = empty();
+  window.addEventListener(type, (event) => {
+    page.watched = { ...empty(), begin: event.timeStamp };
+  }, true);
+  const note = (what: 'warped' | 'drawn') => () => {
+    const now = page.watched;
+    if (now.begin > 0 && now[what] === 0) requestAnimationFrame((time) => { if (now[what] === 0) now[what] = Math.max(time, now.begin); });
+  };
+  new MutationObserver(note('warped')).observe(canvas as Node, { attributeFilter: ['style'] });
+  new MutationObserver(note('drawn')).observe(stage as Node, { attributeFilter: ['data-frames'] });
+};
+
+const read = async (page: Page): Promise<Watch> => page.evaluate(() => ({ ...(window as unknown as { watched: Watch }).watched }));
+
+async function until(page: Page, what: 'warped' | 'drawn'): Promise<number> {
+  for (;;) {
+    const now = await read(page);
+    if (now[what] > 0) return now[what] - now.begin;
+    await page.waitForTimeout(10);
+  }
+}
+
+function tell(what: string, times: number[]): void {
+  times.sort((a, b) => a - b);
+  const at = (share: number) => times[Math.min(times.length - 1, Math.floor(times.length * share))].toFixed(0);
+  console.log(`${what}: median ${at(0.5)} ms, 95th percentile ${at(0.95)} ms, of ${times.length}`);
+}
+
+test('latency', async ({ page }) => {
+  const program = await Program.start([process.env.MODEL ?? model]);
+  try {
+    await visit(page, program);
+    await page.waitForTimeout(3000);
+
+    await page.evaluate(watch, 'pointermove');
+    await page.mouse.move(600, 400);
+    await page.mouse.down();
+    const warped: number[] = [];
+    const drawn: number[] = [];
+    for (let i = 0; i < rounds; i++) {
+      await page.mouse.move(600 + 3 * (i % 20) + 1, 400 + (i % 7));
+      warped.push(await until(page, 'warped'));
+      drawn.push(await until(page, 'drawn'));
+      await page.waitForTimeout(40);
+    }
+    await page.mouse.up();
+    tell('pointer move to the picture moved in the browser', warped);
+    tell('pointer move to pixels of the new camera', drawn);
+
+    await page.getByRole('treeitem', { name: 'plate' }).click();
+    await expect(page.locator('[role=treeitem][aria-selected=true]')).toHaveCount(1);
+    await page.waitForTimeout(3000);
+    const slider = page.getByTestId('slider-roughness').getByRole('slider');
+    await slider.focus();
+    await page.evaluate(watch, 'keydown');
+    const edited: number[] = [];
+    for (let i = 0; i < rounds; i++) {
+      await page.keyboard.press(i % 20 < 10 ? 'ArrowRight' : 'ArrowLeft');
+      edited.push(await until(page, 'drawn'));
+      await page.waitForTimeout(60);
+    }
+    tell('material slider to changed pixels', edited);
+  } finally {
+    await program.kill();
+  }
+});

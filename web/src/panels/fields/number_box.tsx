@@ -1,0 +1,32 @@
+// A number that is taken when one has finished typing it: with Enter, or on leaving.
+import { NumberInput, type NumberInputProps } from '@mantine/core';
+import { useEffect, useState } from 'react';
+import { short } from '../../format';
+
+type Props = { value: number; onCommit: (value: number) => void; label: string; unit?: string; digits?: number } & Pick<NumberInputProps, 'min' | 'max' | 'w' | 'leftSection' | 'allowDecimal' | 'step' | 'disabled'>;
+
+export function NumberBox({ value, onCommit, label, unit, digits = 4, ...rest }: Props) {
+  const [text, setText] = useState<string | number>(short(value, digits));
+  useEffect(() => setText(short(value, digits)), [value, digits]);
+  const commit = () => {
+    const next = typeof text === 'number' ? text : Number.parseFloat(text);
+    if (Number.isFinite(next) && short(next, digits) !== short(value, digits)) onCommit(next);
+    else setText(short(value, digits));
+  };
+  return (
+    <NumberInput
+      {...rest}
+      value={text}
+      onChange={setText}
+      onBlur={commit}
+      onKeyDown={(event) => {
+        if (event.key === 'Enter') commit();
+        if (event.key === 'Escape') setText(short(value, digits));
+      }}
+      suffix={unit ? ` ${unit}` : undefined}
+      aria-label={label}
+      hideControls
+      styles={{ input: { height: 24, minHeight: 24, textAlign: 'right', paddingInline: 6, fontVariantNumeric: 'tabular-nums' } }}
+    />
+  );
+}

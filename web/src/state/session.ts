@@ -1,0 +1,81 @@
+// The one connection of the page, and what its messages do to the store.
+import { Connection, ConnectionLost, Refused } from '../protocol/socket';
+import type { Incoming, Outgoing, Scene } from '../protocol/messages';
+import { complain, mention } from './notices';
+import { get, set } from './store';
+
+type FrameSink = (data: ArrayBuffer) => void;
+let frameSink: FrameSink | null = null;
+let waitingFrames: ArrayBuffer[] = [];
+
+// Who draws the frames, one at most. Frames that come before there is one wait for it: they are two at most, since none was shown.
+export function drawFramesWith(sink: FrameSink | null): void {
+  frameSink = sink;
+  if (!sink) return;
+  waitingFrames.forEach(sink);
+  waitingFrames = [];
+}
+
+export const connection = new Connection({
+  state(state) {
+    set({ connection: state });
+    if (state !== 'open') return;
+    waitingFrames = [];
+    // The picture fills the window. Told before a model is opened, so that the model is framed for it.
+    connection.send({ view: { width: Math.round(window.innerWidth * devicePixelRatio), height: Math.round(window.innerHeight * devicePixelRatio) } });
+    connection.send({ files: null });
+  },
+  message: receive,
+  frame(data) {
+    if (frameSink) frameSink(data);
+    else waitingFrames.push(data);
+  },
+});
+
+export const send = (message: Outgoing) => connection.send(message);
+
+// The answer, or undefined where it was refused: then the user has been told.
+export async function ask(message: Outgoing): Promise<Incoming | undefined> {
+  try {
+    return await connection.request(message);
+  } catch (error) {
+    if (error instanceof Refused) complain(error.failure);
+    else if (!(error instanceof ConnectionLost)) throw error;
+    return undefined;
+  }
+}
+
+function receive(message: Incoming): void {
+  if (message.welcome) set({ welcome: message.welcome, closedReason: null });
+  if (message.files) set({ files: message.files });
+  if (message.opening) set({ opening: message.opening.file, openFailure: null });
+  if (message.scene) receiveScene(message.scene);
+  if (message.edited) {
+    const { can_undo, can_redo } = message.edited;
+    const scene = get().scene;
+    set({ edited: message.edited, scene: scene && { ...scene, can_undo, can_redo } });
+  }
+  if (message.progress) set({ progress: message.progress });
+  if (message.error && message.id === undefined) {
+    const file = get().opening;
+    if (file) set({ opening: null, openFailure: { file, failure: message.error } });
+    else complain(message.error);
+  }
+  if (message.closed) set({ closedReason: message.closed.reason });
+}
+
+function receiveScene({ opened, warnings, ...members }: NonNullable<Incoming['scene']>): void {
+  const { scene: old, opening } = get();
+  for (const warning of warnings ?? []) mention(warning);
+  if (old && !opened) {
+    set({ scene: { ...old, ...members } as Scene });
+    return;
+  }
+  const again = old !== null && opening === null && old.file === members.file;
+  set({ scene: members as Scene, opening: null, openFailure: null });
+  if (!again) set({ selection: [], hovered: null, light: null, isolated: null, replayed: null, pixel: null, point: null, lastEdit: null, layer: 'color', expanded: new Set((members.roots ?? []).map(String)) });
+  document.title = `${titleOf(members as Scene)} – Crescente`;
+}
+
+// What the scene is called: by itself, or as its file.
+export const titleOf = (scene: Scene) => scene.name || scene.file.slice(scene.file.lastIndexOf('/') + 1);

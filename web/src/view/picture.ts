@@ -1,0 +1,47 @@
+// The picture as it has come so far, at the size at which it is rendered. Parts are decoded by the browser and drawn together, frame after frame in their order.
+import { parseFrame, type Frame } from '../protocol/frame';
+
+export class Picture {
+  readonly canvas = document.createElement('canvas');
+  // How many `look`s the picture knows of; null before the first frame.
+  look: number | null = null;
+  frames = 0;
+  private readonly context: CanvasRenderingContext2D;
+  private last: Promise<void> = Promise.resolve();
+
+  // drawn: called for each frame once its pixels are on the canvas.
+  constructor(private readonly drawn: (frame: Frame) => void) {
+    const context = this.canvas.getContext('2d');
+    if (!context) throw new Error('this browser draws no pictures');
+    this.context = context;
+    this.canvas.className = 'picture';
+  }
+
+  receive(data: ArrayBuffer): void {
+    const frame = parseFrame(data);
+    const images = Promise.all(
+      frame.parts.map((part) => createImageBitmap(new Blob([part.data], { type: part.mime }), { colorSpaceConversion: 'none', premultiplyAlpha: 'default' })),
+    );
+    images.catch(() => undefined); // told below, in the order of the frames
+    this.last = this.last.then(async () => this.draw(frame, await images)).catch((error: unknown) => console.error('frame', frame.number, error));
+  }
+
+  forget(): void {
+    this.look = null;
+  }
+
+  private draw(frame: Frame, images: ImageBitmap[]): void {
+    if (this.canvas.width !== frame.width || this.canvas.height !== frame.height) {
+      this.canvas.width = frame.width;
+      this.canvas.height = frame.height;
+    }
+    frame.parts.forEach((part, i) => {
+      this.context.clearRect(part.x, part.y, part.width, part.height);
+      this.context.drawImage(images[i], part.x, part.y);
+      images[i].close();
+    });
+    this.look = frame.look;
+    this.frames++;
+    this.drawn(frame);
+  }
+}
