@@ -44,7 +44,7 @@ export function TopBar() {
       <Text className="title" ta="center" size="sm" fw={500} truncate px="sm" title={name} component="h1">{name}</Text>
       <Menu position="bottom">
         <Menu.Target>
-          <Button variant="subtle" color="gray" px={8} leftSection={<IconCube size={18} stroke={1.7} />} rightSection={<IconChevronDown size={14} />} visibleFrom="sm">Views</Button>
+          <Button variant="subtle" color="gray" px={8} leftSection={<IconCube size={18} stroke={1.7} />} rightSection={<IconChevronDown size={14} />} aria-label="Views"><span className="bar-label">Views</span></Button>
         </Menu.Target>
         <Menu.Dropdown>
           {views.map(([view, key]) => (
