@@ -86,5 +86,7 @@ function LightRow({ light, index, chosen }: { light: Named; index: number; chose
 
 function LightEditor({ light, index, lengthUnit }: { light: Named; index: number; lengthUnit: string }) {
   const onChange = useDrag((field, value) => setLightField(index, field, value), (field) => `${light.name || 'Light'}: ${field.replaceAll('_', ' ')}`);
-  return <GroupedFields fields={lightFields} first={firstOf[String(light.kind ?? 'point')] ?? firstOf.point} groups={groups} values={light} lengthUnit={lengthUnit} onChange={onChange} />;
+  // The unit of its brightness is that of its kind.
+  const fields = lightFields.map((field) => (field.name === 'intensity' ? { ...field, unit: light.kind === 'directional' ? 'lx' : 'cd' } : field));
+  return <GroupedFields fields={fields} first={firstOf[String(light.kind ?? 'point')] ?? firstOf.point} groups={groups} values={light} lengthUnit={lengthUnit} onChange={onChange} />;
 }

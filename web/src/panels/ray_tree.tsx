@@ -39,8 +39,8 @@ function Ray({ tree, depth }: { tree: Tree; depth: number }) {
         {children.length > 0 && !open && ` (+${children.length})`}
       </Text>
       <Text size="xs" c="dimmed" className="numbers">{facts.filter(Boolean).join(' · ')}</Text>
-      {tree.lights?.map((light, i) => (
-        <Text key={i} size="xs" c="dimmed" pl={16} className="numbers">{light.name || `light ${light.light}`}: {light.state}, share {triple(light.share)}</Text>
+      {byKind(tree.lights ?? []).map(([told, count]) => (
+        <Text key={told} size="xs" c="dimmed" pl={16} className="numbers">{told}{count > 1 && ` (${count} points)`}</Text>
       ))}
       {open && children.map((child, i) => <Ray key={i} tree={child} depth={depth + 1} />)}
     </div>
@@ -48,3 +48,13 @@ function Ray({ tree, depth }: { tree: Tree; depth: number }) {
 }
 
 const triple = (values: number[]) => (values.every((x) => x === values[0]) ? short(values[0], 3) : values.map((x) => short(x, 3)).join(' '));
+
+// Lights with extent are seen as many points: those of one light that are alike are told once.
+function byKind(lights: NonNullable<Tree['lights']>): [string, number][] {
+  const counts = new Map<string, number>();
+  for (const { name, light, state, share } of lights) {
+    const told = `${name || `light ${light}`}: ${state}, share ${triple(share)}`;
+    counts.set(told, (counts.get(told) ?? 0) + 1);
+  }
+  return [...counts];
+}

@@ -41,10 +41,10 @@ export function TopBar() {
       <ToolButton label="Move" keys="M" icon={IconArrowsMove} {...toolButton('move')} />
       <ToolButton label="Rotate" keys="R" icon={IconRotateClockwise} {...toolButton('rotate')} />
       <ToolButton label="Snap to steps" keys="N" icon={IconMagnet} active={snap} onClick={() => set({ snap: !snap })} />
-      <Text flex={1} ta="center" size="sm" fw={500} truncate px="sm" title={name} component="h1">{name}</Text>
+      <Text className="title" ta="center" size="sm" fw={500} truncate px="sm" title={name} component="h1">{name}</Text>
       <Menu position="bottom">
         <Menu.Target>
-          <Button variant="subtle" color="gray" px={8} leftSection={<IconCube size={18} stroke={1.7} />} rightSection={<IconChevronDown size={14} />} visibleFrom="sm">Views</Button>
+          <Button variant="subtle" color="gray" px={8} leftSection={<IconCube size={18} stroke={1.7} />} rightSection={<IconChevronDown size={14} />} aria-label="Views"><span className="bar-label">Views</span></Button>
         </Menu.Target>
         <Menu.Dropdown>
           {views.map(([view, key]) => (

@@ -128,9 +128,10 @@ export class Navigation {
       far.width = Math.max(far.width, Math.abs(corner.x));
       far.height = Math.max(far.height, Math.abs(corner.y));
     }
-    // The corners of a box may lie outside where what is in it does not.
-    const factor = Math.max(Math.min(far.width, filled) / share.width, Math.min(far.height, filled) / share.height);
-    if (Math.max(far.width, far.height) > 1.6 || factor <= 1) return;
+    // The corners of a box may lie outside where what is in it does not; and what was framed for a wide view is wider than a narrow one.
+    const narrow = Math.max(16 / 9 / this.aspect, 1);
+    const factor = Math.max(Math.min(far.width, filled * narrow) / share.width, Math.min(far.height, filled) / share.height);
+    if (far.width > 1.6 * narrow || far.height > 1.6 || factor <= 1) return;
     if (this.camera instanceof OrthographicCamera) void this.controls.zoomTo(this.camera.zoom / factor, false);
     else void this.controls.dollyTo(this.controls.distance * factor, false);
     this.controls.update(0);

@@ -9,12 +9,11 @@ import type { Picked } from '../protocol/messages';
 import type { Stage } from './stage';
 
 const clickPixels = 4;
-const clickMilliseconds = 500;
 const wheelPauseMilliseconds = 250;
 export const materialType = 'application/x-crescente-material';
 
 export class Pointer {
-  private down: { x: number; y: number; time: number; id: number } | null = null;
+  private down: { x: number; y: number; id: number } | null = null;
   private hovering = false;
   private nextHover: PointerEvent | null = null;
   private lastWheel = 0;
@@ -49,7 +48,7 @@ export class Pointer {
     if (event.target instanceof HTMLButtonElement) return;
     this.element.focus({ preventScroll: true });
     set({ turntable: false });
-    this.down = { x: event.clientX, y: event.clientY, time: event.timeStamp, id: event.pointerId };
+    this.down = { x: event.clientX, y: event.clientY, id: event.pointerId };
     hover(null);
     this.stage.navigation.leftPans(event.shiftKey);
     if (event.button !== 0 || this.stage.overHandle) return;
@@ -63,7 +62,7 @@ export class Pointer {
     const down = this.down;
     this.down = null;
     if (!down || event.button !== 0 || this.stage.busy || this.stage.overHandle || event.target instanceof HTMLButtonElement) return;
-    if (Math.hypot(event.clientX - down.x, event.clientY - down.y) > clickPixels || event.timeStamp - down.time > clickMilliseconds) return;
+    if (Math.hypot(event.clientX - down.x, event.clientY - down.y) > clickPixels) return;
     const picked = await this.pick(event.clientX, event.clientY);
     if (picked === undefined) return;
     set({ pixel: this.stage.pixelAt(event.clientX, event.clientY), point: picked?.position ?? null });
