@@ -55,6 +55,12 @@ TEST_F(Usage, OutputIsRequired) {
     EXPECT_TRUE(contains(outcome.err, "--output"));
 }
 
+TEST_F(Usage, TheModelMayComeLast) {
+    const Outcome outcome = crescente({"render", "--set", "settings.depth=1", "-o", path("a.png"), "--size", "8x8", (scenes / "balls4.nff").string()});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(files(), std::vector<std::string>{"a.png"});
+}
+
 TEST_F(Usage, EveryProblemIsToldAtOnce) {
     const Outcome outcome = crescente({"render", (scenes / "balls4.nff").string(), "-o", path("a.png"), "--size", "12by13", "--level", "shadow",
                                        "--depth", "-1", "--threshold", "x", "--time", "soon", "--memory", "much", "--camera", "frnt", "--fov",

@@ -25,7 +25,7 @@ scene::Tonemap automatic_tonemap(const scene::Scene& scene) {
 
 void add_picture_options(CLI::App& command, PictureOptions& options, bool required) {
     command.add_option("-o,--output", options.outputs, "Where the picture goes: .png .jpg .tif .hdr .exr (repeatable)")
-        ->option_text("FILE")->required(required)->expected(1)->take_all();
+        ->option_text("FILE")->required(required)->expected(1)->take_all()->allow_extra_args(false);
     command.add_option("--tonemap", options.tonemap, "Display colours: auto, srgb or neutral (Khronos PBR Neutral)")
         ->option_text("NAME")->check(CLI::IsMember({"auto", "srgb", "neutral"}));
     command.add_option("--exposure", options.exposure, "Brightness of the picture in stops; auto: its log-average becomes middle grey, little burns out")->option_text("STOPS|auto")

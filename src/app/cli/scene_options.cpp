@@ -133,7 +133,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--environment", options.environment, "Equirectangular picture that surrounds and lights the scene, such as sky.hdr")->option_text("FILE");
     command.add_option("--sky", options.sky, "Clear sky and sun: azimuth,elevation or 2024-06-21T14:30,latitude,longitude (universal time), and ,turbidity")->option_text("SUN");
     command.add_option("--set", options.overrides, "Override a value of the scene: material.chrome.roughness=0.1 (repeatable)")
-        ->option_text("PATH=VALUE")->expected(1)->take_all();
+        ->option_text("PATH=VALUE")->expected(1)->take_all()->allow_extra_args(false);
     command.add_option("--studio", options.studio, "Lights and ground that fit the model, whatever light it has: " + studio_list())->option_text("NAME");
     command.add_option("--ground", options.ground, "What the model stands on: studio, catch (only shadows and reflections are seen) or none")
         ->check(CLI::IsMember({"studio", "catch", "none"}))->option_text("NAME");

@@ -102,7 +102,7 @@ Command add_view(CLI::App& app) {
     const auto options = std::make_shared<ViewOptions>();
     add_scene_options(*parser, options->scene);
     parser->get_option("MODEL")->required(false);
-    parser->add_option("--folder", options->folders, "A folder from which the page may open models (repeatable)")->option_text("DIR")->expected(1)->take_all();
+    parser->add_option("--folder", options->folders, "A folder from which the page may open models (repeatable)")->option_text("DIR")->expected(1)->take_all()->allow_extra_args(false);
     parser->add_option("--listen", options->address, "Address to listen on; other than loopback, whoever knows the printed address can use the viewer")->option_text("ADDRESS");
     parser->add_option("--port", options->port, "Port to listen on; 0: one that is free")->option_text("N")->check(CLI::Range(0, 65535));
     parser->add_option("--sessions", options->sessions, "Most viewers at a time")->option_text("N")->check(CLI::Range(1, 1000));
