@@ -85,8 +85,9 @@ export async function growTo(page: Page, level: string): Promise<void> {
   await expect(page.getByRole('menu')).toHaveCount(0); // it covers part of the picture
 }
 
-// Finished, and what is shown is without loss.
-export async function converged(page: Page): Promise<void> {
+// Finished, and what is shown is without loss; not before other pixels are there than those of `before`.
+export async function converged(page: Page, before?: number): Promise<void> {
+  if (before !== undefined) await expect.poll(() => pixels(page), { timeout: 45_000 }).not.toBe(before);
   await expect(page.getByTestId('status')).toHaveAttribute('data-state', 'finished', { timeout: 45_000 });
   await expect(page.getByTestId('stage')).toHaveAttribute('data-converged', 'true');
 }

@@ -1,5 +1,8 @@
 #include "app/server/viewer.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include "app/server/viewer_work.h"
 
 namespace crescente::app {
@@ -7,6 +10,9 @@ namespace crescente::app {
 Viewer::Viewer(ViewerSettings settings, Outlet outlet) {
     thread_ = std::thread([this, settings = std::move(settings), outlet = std::move(outlet)]() mutable {
         const auto ended = outlet.ended;
+        // Of this thread, and of those that it makes to render: a browser on the same machine has to draw what they send.
+        constexpr int behind_the_page = 5;
+        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), behind_the_page);
         Work(*this, std::move(settings), std::move(outlet)).run();
         ended();
     });

@@ -19,11 +19,15 @@ export async function edit(verb: Outgoing, title: string, gesture?: string): Pro
 export class Drag {
   private readonly gesture = newGesture();
   private next: Outgoing | null = null;
+  private last = '';
   private busy = false;
 
   constructor(private readonly title: string) {}
 
   async send(verb: Outgoing): Promise<void> {
+    const text = JSON.stringify(verb);
+    if (text === this.last) return; // the end of a drag says its last step again
+    this.last = text;
     this.next = verb;
     if (this.busy) return;
     this.busy = true;
