@@ -53,7 +53,6 @@ test('a click picks the part, and hides or isolates it', async ({ page, start })
   await page.keyboard.press('h');
   await expect(page.locator('[role=treeitem][data-hidden=true]')).not.toHaveCount(0);
   await converged(page, before);
-  const hidden = await pixels(page);
   await page.keyboard.press('Control+z');
   await expect(page.locator('[role=treeitem][data-hidden=true]')).toHaveCount(0);
   await expect.poll(() => pixels(page)).toBe(before);
