@@ -1,14 +1,14 @@
 # OpenImageIO costs 0.3 s of start-up: it lives in a module that is loaded when a picture needs it.
 target_link_libraries(io PUBLIC ${CMAKE_DL_LIBS} ZLIB::ZLIB)
 if(CRESCENTE_OPENIMAGEIO)
-    find_package(OpenImageIO QUIET)
+    # Not by its CMake package: Debian's wants the tools (and OpenCV's folders) there that libopenimageio-dev does not bring.
+    find_package(PkgConfig QUIET)
+    if(PKG_CONFIG_FOUND)
+        pkg_check_modules(OpenImageIO QUIET IMPORTED_TARGET OpenImageIO)
+    endif()
     if(OpenImageIO_FOUND)
-        # Debian's configuration names folders of OpenCV, which need not be there and which CMake then refuses.
-        get_target_property(include_dirs OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
-        list(FILTER include_dirs EXCLUDE REGEX "opencv")
-        set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${include_dirs}")
         add_library(crescente_openimageio MODULE ${PROJECT_SOURCE_DIR}/src/io/oiio/module.cpp)
-        target_link_libraries(crescente_openimageio PRIVATE crescente_flags OpenImageIO::OpenImageIO)
+        target_link_libraries(crescente_openimageio PRIVATE crescente_flags PkgConfig::OpenImageIO)
         set_target_properties(crescente_openimageio PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
         add_dependencies(io crescente_openimageio)
         install(TARGETS crescente_openimageio LIBRARY DESTINATION lib)
