@@ -192,7 +192,7 @@ SurfacePoint Brep::surface(std::uint32_t primitive, Vec3 position) const {
         point.u = at.u, point.v = at.v;
     }
     if (face.reversed) point.normal = -point.normal, point.shading_normal = -point.shading_normal;
-    point.slot = face.slot;
+    point.slot = slot(primitive);
     return point;
 }
 

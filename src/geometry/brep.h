@@ -35,6 +35,7 @@ public:
     // intersect() for each of the lanes of `active`, to the same bits: the lanes that meet the part, and their parameters.
     unsigned intersect(std::uint32_t part, const RayLanes& rays, unsigned active, Lanes& t) const;
     SurfacePoint surface(std::uint32_t primitive, Vec3 position) const;
+    std::uint32_t slot(std::uint32_t primitive) const { return faces_[leaves_[primitive].face].slot; }
     static const FieldTable<Brep>& fields();  // none: it comes from a CAD file
 
     std::size_t face_count() const { return faces_.size(); }

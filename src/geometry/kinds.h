@@ -40,6 +40,14 @@ inline std::uint32_t face_number(const Shape& shape, std::uint32_t primitive) {
     return brep ? brep->face_of(primitive) : primitive;
 }
 
+// Which of the materials of an instance a primitive has: SurfacePoint::slot, without the rest of it.
+inline std::uint32_t slot(const Shape& shape, std::uint32_t primitive) {
+    return std::visit([=](const auto& s) -> std::uint32_t {
+        if constexpr (requires { s.slot(primitive); }) return s.slot(primitive);
+        else return 0;
+    }, shape);
+}
+
 // The leaves of a shape that is made of patches, part by part; null for other shapes.
 inline const PatchLeaves* patch_leaves(const Shape& shape) {
     return std::visit([](const auto& s) -> const PatchLeaves* {

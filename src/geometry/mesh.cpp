@@ -42,7 +42,7 @@ SurfacePoint Mesh::surface(std::uint32_t primitive, Vec3 position) const {
         const auto corner = [&](int k) { return point3(corner_normal(primitive, k)); };
         point.shading_normal = vec3(interpolated_normal(corner(0), corner(1), corner(2), at.u, at.v, at.normal));
     }
-    point.slot = slots.empty() ? 0 : slots[primitive];
+    point.slot = slot(primitive);
     return point;
 }
 

@@ -33,6 +33,7 @@ struct Mesh {
     Bounds part_bounds(std::uint32_t part) const;
     std::optional<ShapeHit> intersect(std::uint32_t part, const Ray& ray) const;
     SurfacePoint surface(std::uint32_t primitive, Vec3 position) const;
+    std::uint32_t slot(std::uint32_t primitive) const { return slots.empty() ? 0 : slots[primitive]; }
     static const FieldTable<Mesh>& fields();  // none: a mesh comes from a file, or as the arrays that io/ reads
 };
 

@@ -81,7 +81,9 @@ void Growth::end_catcher(const PointLanes& p, int i) {
     Node& node = tile_.nodes[p.node[i]];
     const float clear = CaughtLight{p.open[i], p.all[i]}.clear() * p.lobes[i]->coverage;
     node.local += seen_behind(world_, node.position) * clear;
-    if (world_.environment.source().transparent) node.clear = static_cast<std::uint16_t>(clear * all_clear + 0.5f) & all_clear;
+    if (!world_.environment.source().transparent) return;
+    node.clear = static_cast<std::uint16_t>(clear * all_clear + 0.5f) & all_clear;
+    tile_.keeps_clear = true;
 }
 
 }  // namespace crescente::render

@@ -193,7 +193,10 @@ Expected<Checkpoint> read_all(const fs::path& file, const World& world) {
         if (head_level > scene::Level::edges && now.level <= scene::Level::edges) forget_samples(*read);
         if (const std::string problem = tile_problem(*read, world, stages); !problem.empty()) return reader->wrong(place, "is damaged: it " + problem);
         tile = std::move(*read);
-        for (const Node& node : tile.nodes) tile.materials |= std::uint64_t{1} << node.material % 64;
+        for (const Node& node : tile.nodes) {
+            tile.materials |= std::uint64_t{1} << node.material % 64;
+            tile.keeps_clear = tile.keeps_clear || node.clear > 0;
+        }
     }
     if (reader->left() != 0) return reader->wrong("the end", "is damaged: something follows the last tile");
     return checkpoint;

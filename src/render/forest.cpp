@@ -98,8 +98,16 @@ std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections) {
     return result;
 }
 
+void append_radiances(const Tile& tile, std::vector<Rgb>& known) {
+    const std::size_t first = known.size();
+    known.resize(tile.nodes.size());
+    for (std::size_t i = tile.nodes.size(); i-- > first;) {
+        known[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return known[child]; });
+    }
+}
+
 std::vector<float> clearness(const Tile& tile) {
-    if (std::none_of(tile.nodes.begin(), tile.nodes.end(), [](const Node& node) { return node.clear > 0; })) return {};
+    if (!tile.keeps_clear) return {};
     std::vector<float> result(tile.nodes.size());
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
         float sum = static_cast<float>(tile.nodes[i].clear) / float{all_clear};

@@ -117,6 +117,7 @@ struct Tile {
     bool lit = true;          // false: some nodes wait for their light
     std::uint32_t all_lit = 0, all_spawned = 0;  // nodes, the first ones, that after an edit are known to be lit, or to have sent their rays
 
+    bool keeps_clear = false;     // some node may show what is behind the scene: Node::clear
     std::uint64_t materials = 0;  // bit i: some node may be of a material whose index is i modulo 64
     std::uint64_t revision = 0;  // edits of the session that the trees know
     std::uint64_t changed = 0;   // when its picture last did, by the session's clock
@@ -182,6 +183,9 @@ Rgb influence(const Tile& tile, std::uint32_t node);
 // Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera. `corrections`: by node, what is added to its
 // own radiance; empty: nothing.
 std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections = {});
+
+// The same for the nodes that came since `known` was made, to which it is appended; nothing else changed since, and no node got another child.
+void append_radiances(const Tile& tile, std::vector<Rgb>& known);
 
 // Share of what is behind the scene that is seen in every node, by node. Empty: none in any.
 std::vector<float> clearness(const Tile& tile);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "math/octahedral.h"
+#include "render/classic_view.h"
 #include "render/deadline.h"
 #include "render/forest.h"
 #include "render/physical_view.h"
@@ -67,6 +68,9 @@ public:
     // between chunks when the deadline passes and returns false; calling again goes on.
     bool grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline);
 
+    // Radiance of the nodes that were there when pixels were last split, while the same Growth splits them further; else empty (level_edges.cpp).
+    std::vector<Rgb>& radiance_before_splits() { return radiance_before_splits_; }
+
 private:
     struct Seed {  // what a new node inherits
         std::uint32_t parent = no_node;
@@ -83,6 +87,8 @@ private:
         const Lobes* lobes[lane_count];
         unsigned physical;            // lanes of physical materials
         PhysicalView<Lanes> view;     // theirs
+        unsigned classic, blinn;      // lanes of classic materials, and of those with Blinn's highlight
+        ClassicView<Lanes> classic_view;
         unsigned sampled;             // lanes that take the light of lights with extent from their samples
         unsigned catching;            // lanes of catchers (render/catcher.h)
         float open[lane_count], all[lane_count];  // light that they caught so far
@@ -118,12 +124,14 @@ private:
     std::vector<geometry::Ray> rays_;
     std::vector<accel::Hit> hits_;
     std::vector<Seed> seeds_;
-    std::vector<PointLanes> points_;
+    std::vector<PointLanes> points_room_;  // made once: to clear so much each time would take longer than some of the work
+    std::span<PointLanes> points_;         // what of it is in use
     std::vector<Lobes> textured_;  // of points_, where these have textures
     std::vector<std::uint32_t> parents_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;
     std::vector<std::uint32_t> fresh_, sky_nodes_;
+    std::vector<Rgb> radiance_before_splits_;
     std::vector<accel::Hit> last_occluder_;  // shadow cache: by light and depth
 };
 

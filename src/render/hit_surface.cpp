@@ -82,7 +82,7 @@ void at_mesh(const Instance& instance, const geometry::Mesh& mesh, const RayLane
     to.put(lanes, position, geometric, shading, error);
     for (unsigned rest = lanes; rest; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
-        to.slot[i] = mesh.slots.empty() ? 0 : mesh.slots[hits[i].primitive];
+        to.slot[i] = mesh.slot(hits[i].primitive);
     }
 }
 

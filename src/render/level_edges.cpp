@@ -38,6 +38,7 @@ struct Place {
 // The quads of this depth (0: pixels), in a fixed order.
 std::vector<Place> quads_at_depth(const Tile& tile, int depth) {
     std::vector<Place> places;
+    places.reserve(static_cast<std::size_t>(tile.width) * tile.height);
     std::uint32_t i = 0;
     for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x, ++i) {
@@ -47,6 +48,7 @@ std::vector<Place> quads_at_depth(const Tile& tile, int depth) {
     for (int d = 0; d < depth; ++d) {
         const std::uint32_t half = (1u << subpixel_bits) >> (d + 1);
         std::vector<Place> inner;
+        inner.reserve(tile.quads.size());
         for (const Place& place : places) {
             const std::uint32_t parts = tile.quads[place.quad].parts;
             if (parts == no_node) continue;
@@ -80,6 +82,22 @@ void keep_roots_of_parts(const std::vector<Quad>& quads, const Quad& quad, Latti
 void keep_roots(const std::vector<Quad>& quads, Tile& tile) {
     if (quads.empty()) return;
     for (const Place& place : quads_at_depth(tile, 0)) keep_roots_of_parts(quads, quads[place.quad], place.at, 1u << subpixel_bits, tile);
+}
+
+// Those of the pixels that the places lie in, and of their neighbours, which share corners with them.
+void keep_roots_around(const std::vector<Place>& places, std::span<const std::uint32_t> chosen, Tile& tile) {
+    std::vector<std::uint8_t> wanted(static_cast<std::size_t>(tile.width) * tile.height);
+    for (const std::uint32_t i : chosen) {
+        const int x = static_cast<int>(places[i].at.x >> subpixel_bits) - tile.x0, y = static_cast<int>(places[i].at.y >> subpixel_bits) - tile.y0;
+        for (int v = std::max(0, y - 1); v <= std::min(tile.height - 1, y + 1); ++v) {
+            for (int u = std::max(0, x - 1); u <= std::min(tile.width - 1, x + 1); ++u) wanted[static_cast<std::size_t>(v) * tile.width + u] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (!wanted[i]) continue;
+        const LatticePoint at = corner_point(tile.x0 + static_cast<int>(i) % tile.width, tile.y0 + static_cast<int>(i) / tile.width);
+        keep_roots_of_parts(tile.quads, tile.quads[i], at, 1u << subpixel_bits, tile);
+    }
 }
 
 }  // namespace
@@ -120,9 +138,14 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
     const std::vector<Place> places = quads_at_depth(tile, depth);
 
     if (tile.cursor == 0) {  // decide once, from what the stages before left
-        const std::vector<Rgb> radiance = radiances(tile);
+        // Splitting adds trees and leaves those that are there as they are.
+        std::vector<Rgb>& radiance = growth.radiance_before_splits();
+        if (depth == 0) radiance.clear();
+        append_radiances(tile, radiance);
         const std::vector<float> clear = clearness(tile);
         tile.todo.clear();
+        std::vector<std::uint32_t> whole_again;  // quads that were split before an edit
+        bool split_before = false;
         for (std::uint32_t i = 0; i < places.size(); ++i) {
             Quad& quad = tile.quads[places[i].quad];
             std::array<Rgb, 4> corners;
@@ -132,15 +155,17 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
             const auto contrast = static_cast<float>(growth.settings().contrast);
             const auto [least, most] = std::minmax_element(clear_corners.begin(), clear_corners.end());
             const bool split = differ(corners, contrast) || *most - *least > contrast;
+            split_before = split_before || quad.parts != no_node;
             if (split && quad.parts == no_node) {
                 tile.todo.push_back(i);
-            } else if (!split && quad.parts != no_node) {  // of before an edit
-                quad.parts = no_node;
-                ++tile.forgotten;
+            } else if (!split && quad.parts != no_node) {
+                whole_again.push_back(places[i].quad);
             }
         }
         // Corners that are there already are found by their place.
-        if (!tile.todo.empty() && tile.subpixel_roots.empty()) keep_roots(tile.quads, tile);
+        if (!tile.todo.empty() && split_before) keep_roots_around(places, tile.todo, tile);
+        for (const std::uint32_t quad : whole_again) tile.quads[quad].parts = no_node;
+        tile.forgotten += whole_again.size();
         tile.cursor = 1;
     }
 

@@ -45,6 +45,7 @@ void light_sky(const World& world, Tile& tile, std::uint32_t i, LatticePoint poi
     }
     const bool apart = by_camera && world.environment.source().transparent;
     node.clear = apart ? all_clear : 0;
+    tile.keeps_clear = tile.keeps_clear || apart;
     node.local = {};
     if (!root && catches(world, tile, node.parent) && !goes_straight(world, tile, i)) return;  // it mirrors objects alone
     const Ray ray = root ? camera_ray(world, point) : Ray{tile.nodes[node.parent].position, node.position};

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "render/bsdf.h"
+#include "render/classic_view.h"
 #include "render/physical_view.h"
 #include "render/thin_film.h"
 
@@ -288,15 +289,10 @@ Rgb reflect_light(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light
         reflect_physical(physical_view(lobes, dot(normal, to_viewer)), cosine, dot(to_viewer, to_light), layer_at(lobes, cosine), with_highlight, radiance);
         return {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
     }
-    Rgb result = lobes.diffuse * static_cast<float>(cosine);
-    if (!with_highlight || lobes.highlight_lobe == HighlightLobe::none) return result;
-    if (lobes.highlight_lobe == HighlightLobe::phong) {
-        const double mirrored = 2 * cosine * dot(normal, to_viewer) - dot(to_light, to_viewer);
-        if (mirrored > 0) result += lobes.highlight * std::pow(static_cast<float>(mirrored), lobes.exponent);
-        return result;
-    }
-    const double n_h = std::max(0.0, dot(normal, normalize(to_light + to_viewer)));
-    return result + lobes.highlight * std::pow(static_cast<float>(n_h), lobes.exponent);
+    const double n_v = dot(normal, to_viewer), v_l = dot(to_viewer, to_light);
+    double radiance[3];
+    reflect_classic(classic_view(lobes), cosine, lobes.highlight_lobe == HighlightLobe::blinn ? blinn_cosine(cosine, n_v, v_l) : phong_cosine(cosine, n_v, v_l), with_highlight, radiance);
+    return {static_cast<float>(radiance[0]), static_cast<float>(radiance[1]), static_cast<float>(radiance[2])};
 }
 
 double coat_reflectance(const Lobes& lobes, double cosine) {

@@ -51,14 +51,13 @@ Rgb passage(const World& world, std::vector<Medium> media, std::span<const accel
         const accel::Hit& hit = crossings[i].hit;
         if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
         const accel::Instance& instance = world.instances[hit.instance];
-        const geometry::Ray local = accel::to_local(instance, ray);
-        const auto surface = geometry::surface(*instance.shape, hit.primitive, local.at(hit.t));
-        const std::uint32_t material = world.material(hit.instance, surface.slot);
+        const std::uint32_t material = world.material(hit.instance, geometry::slot(*instance.shape, hit.primitive));
         Lobes scratch;
         const Lobes& lobes = world.textured_material(material) ? lobes_at(world, material, texture_point(world, ray, hit, path()), scratch) : world.lobes[material];
         filter *= straight_only && lobes.refracts() && lobes.ior != 1 ? lobes.straight : lobes.shadow_filter;
         if (!world.absorbs) continue;
-        const bool leaves = dot(surface.normal, local.direction) > 0;
+        const geometry::Ray local = accel::to_local(instance, ray);
+        const bool leaves = dot(geometry::surface(*instance.shape, hit.primitive, local.at(hit.t)).normal, local.direction) > 0;
         if (const auto medium = find(media, hit.instance); medium != media.end()) {
             depth += medium->attenuation * static_cast<float>(hit.t - medium->since);
             media.erase(medium);

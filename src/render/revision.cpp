@@ -127,12 +127,10 @@ private:
                 if (change_.sky) update_sky(i, point_of(place_[i]));
                 continue;
             }
-            node.instance = change_.instance_now[node.instance];
+            if (const std::uint32_t now = change_.instance_now[node.instance]; now != node.instance) node.instance = now;  // most need not be written
             LobesChange lobes;
             if (change_.reassigned[node.instance]) {
-                const accel::Instance& instance = now_.instances[node.instance];
-                const auto surface = geometry::surface(*instance.shape, node.primitive, instance.to_local.point(node.position));
-                const std::uint32_t material = now_.material(node.instance, surface.slot);
+                const std::uint32_t material = now_.material(node.instance, geometry::slot(*now_.instances[node.instance].shape, node.primitive));
                 lobes = change_between(before_, node.material, now_, material);
                 node.material = material;
                 tile_.materials |= std::uint64_t{1} << material % 64;
