@@ -369,10 +369,17 @@ bool Embree::try_packet(Query& query, const Primitive& primitive, std::uint32_t 
         query.counts.shape_tests += packet;
         return true;
     }
-    for (unsigned lanes = sphere_lanes(query.packet_rays, active, instance, sphere->radius, t); lanes; lanes &= lanes - 1) {
-        const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
-        meet(lane, Hit{t[lane], index, 0});
-    }
+    alignas(64) double leave[packet];
+    const SphereLanes crossed = sphere_lanes(query.packet_rays, active, instance, sphere->radius, t, leave);
+    const bool both = sense == Sense::light && !instance.opaque;
+    const auto visit_all = [&](unsigned lanes, const double* at) {
+        for (; lanes; lanes &= lanes - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+            meet(lane, Hit{at[lane], index, 0});
+        }
+    };
+    visit_all(crossed.enters, t);
+    visit_all(both ? crossed.leaves : crossed.leaves & ~crossed.enters, leave);
     query.counts.shape_tests += packet;
     return true;
 }
@@ -417,8 +424,9 @@ void Embree::try_shadow(const RTCOccludedFunctionNArguments& arguments) const {
     const Primitive primitive = set.primitives[arguments.primID];
     const std::uint32_t index = instance_of(query.context, primitive);
     const Instance& instance = instances_[index];
-    // Of a sphere that is not opaque both crossings count, of one with one side perhaps the second: one ray at a time.
-    if (arguments.N == packet && ((instance.opaque && instance.one_sided.empty()) || primitive.cluster)) {
+    // What is not opaque may be crossed several times, what has one side only the second time: one ray at a time, but for spheres and triangles.
+    const bool in_packets = instance.one_sided.empty() && (instance.opaque || std::holds_alternative<geometry::Sphere>(*instance.shape));
+    if (arguments.N == packet && (in_packets || primitive.cluster)) {
         const auto block_or_cross = [&](unsigned lane, const Hit& hit) {
             if (instance.opaque) {
                 query.hits[lane] = hit;

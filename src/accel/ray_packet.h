@@ -52,23 +52,24 @@ struct LocalLanes {
     }
 };
 
-// Which of the active lanes meet a sphere, as bits; t holds the parameter of the nearest crossing in the lane's reach.
-inline unsigned sphere_lanes(const RayPacket& rays, unsigned active, const Instance& instance, double radius, double* t) {
-    unsigned found = 0;
+// Which of the active lanes go into a sphere within their reach, and which leave it, as bits; at the parameters enter and leave.
+struct SphereLanes {
+    unsigned enters = 0, leaves = 0;
+};
+inline SphereLanes sphere_lanes(const RayPacket& rays, unsigned active, const Instance& instance, double radius, double* enter, double* leave) {
+    SphereLanes found;
     for (int first = 0; first < packet_size; first += lane_count) {
         if (!(active >> first & 0xff)) continue;
         const LocalLanes local(rays, first, instance);
-        const auto [enter, leave] = geometry::inside_sphere(radius, local.origin, local.direction);
+        const auto inside = geometry::inside_sphere(radius, local.origin, local.direction);
         const Lanes start = load(rays.start + first), end = load(rays.end + first);
-        const LaneMask enters = (enter > start) & (enter <= end), leaves = (leave > start) & (leave <= end);
-        *reinterpret_cast<Lanes*>(t + first) = enters ? enter : leave;
-        found |= bits_of((enter < leave) & (enters | leaves)) << first;
+        const auto in_reach = [&](const Lanes& t) { return (t > start) & (t <= end) & (t < std::numeric_limits<double>::infinity()); };
+        const LaneMask meets = inside.enter < inside.leave;
+        *reinterpret_cast<Lanes*>(enter + first) = inside.enter, *reinterpret_cast<Lanes*>(leave + first) = inside.leave;
+        found.enters |= bits_of(meets & in_reach(inside.enter)) << first;
+        found.leaves |= bits_of(meets & in_reach(inside.leave)) << first;
     }
-    found &= active;
-    for (unsigned rest = found; rest; rest &= rest - 1) {
-        const int lane = __builtin_ctz(rest);
-        if (!std::isfinite(t[lane])) found ^= 1u << lane;
-    }
+    found.enters &= active, found.leaves &= active;
     return found;
 }
 
