@@ -19,6 +19,9 @@ import type { Camera, Scene } from '../protocol/messages';
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
 
+// What of the state is drawn over the picture.
+const drawnFrom = ({ scene, selection, hovered, tool, light, snap, rightOpen, rightTab }: Store) => [scene?.objects, scene?.lights, scene?.bounds, selection, hovered, tool, light, snap, rightOpen, rightTab];
+
 export class Stage {
   readonly navigation: Navigation;
   readonly picture: Picture;
@@ -54,7 +57,10 @@ export class Stage {
     this.gizmo = new Gizmo(new Navigation(document.createElement('div'), () => undefined).camera, element, (dragging) => {
       if (parts.navigation) parts.navigation.controls.enabled = !dragging;
       if (!dragging) this.refresh(get());
-    }, wake);
+    }, () => {
+      this.overlay.changed();
+      this.wake();
+    });
     this.navigation = parts.navigation = new Navigation(element, wake);
     this.overlay.add(this.gizmo.proxy);
     this.overlay.add(this.gizmo.controls.getHelper());
@@ -212,8 +218,7 @@ export class Stage {
   private follow(now: Store, before: Store): void {
     if (now.connection === 'open' && before.connection !== 'open') this.takeUp();
     if (now.scene && now.scene.camera !== before.scene?.camera && !this.isTold(now.scene.camera)) this.takeScene(now);
-    else if (now.scene !== before.scene || now.selection !== before.selection || now.hovered !== before.hovered || now.tool !== before.tool || now.light !== before.light || now.snap !== before.snap || now.rightTab !== before.rightTab)
-      this.refresh(now);
+    else if (drawnFrom(now).some((part, i) => part !== drawnFrom(before)[i])) this.refresh(now);
     if (now.turntable && !before.turntable) this.wake();
     if (now.orthographic !== before.orthographic && now.scene) this.navigation.setOrthographic(now.orthographic);
   }
@@ -233,6 +238,7 @@ export class Stage {
     const reach = scene?.bounds ? boxOf(scene.bounds).getSize(new Vector3()).length() / 2 : 1;
     this.overlay.setLines('light', light && light.kind !== 'directional' ? lightLines(light, reach) : [], colors.light, 0.9);
     this.gizmo.show(state, this.navigation.camera);
+    this.overlay.changed();
     this.marks.refresh(state);
     this.wake();
   }
