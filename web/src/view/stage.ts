@@ -3,10 +3,12 @@ import { Box3, Vector3 } from 'three';
 import { get, set, useStore, type Store } from '../state/store';
 import { drawFramesWith, send } from '../state/session';
 import { boxOf, leafOf, objectAt, worldBox, worldOf } from '../state/tree';
+import { Attention } from './attention';
 import { boxLines, Overlay } from './overlay';
 import { wholeCamera, type WholeCamera } from './camera';
 import { Gizmo } from './gizmo';
 import { lightLines } from './light_lines';
+import { LightHandles } from './light_handles';
 import { LightMarks } from './light_marks';
 import { Navigation, type StandardView } from './navigation';
 import { Picture } from './picture';
@@ -25,10 +27,12 @@ const drawnFrom = ({ scene, selection, hovered, tool, light, snap, rightOpen, ri
 export class Stage {
   readonly navigation: Navigation;
   readonly picture: Picture;
+  readonly attention = new Attention(() => window.devicePixelRatio);
   private readonly overlay: Overlay;
   private readonly gizmo: Gizmo;
   private readonly cube: ViewCube;
   private readonly marks: LightMarks;
+  private readonly lightHandles: LightHandles;
   private readonly pointer: Pointer;
   private readonly observer: ResizeObserver;
   private readonly unsubscribe: () => void;
@@ -66,6 +70,7 @@ export class Stage {
     this.overlay.add(this.gizmo.controls.getHelper());
     this.cube = new ViewCube(cubePlace, this.navigation, wake);
     this.marks = new LightMarks(element);
+    this.lightHandles = new LightHandles(element, () => this.navigation.get());
     this.pointer = new Pointer(element, this);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(element);
@@ -82,7 +87,9 @@ export class Stage {
     this.unsubscribe();
     this.observer.disconnect();
     this.pointer.dispose();
+    this.attention.dispose();
     this.marks.dispose();
+    this.lightHandles.dispose();
     this.cube.dispose();
     this.gizmo.dispose();
     this.navigation.dispose();
@@ -96,6 +103,12 @@ export class Stage {
 
   get overHandle(): boolean {
     return this.gizmo.handle !== null;
+  }
+
+  // A place of the page in the view, CSS pixels.
+  placeAt(clientX: number, clientY: number): { x: number; y: number } {
+    const rect = this.element.getBoundingClientRect();
+    return { x: clientX - rect.left, y: clientY - rect.top };
   }
 
   // A place of the page as pixel of the picture; null outside.
@@ -144,6 +157,7 @@ export class Stage {
     this.overlay.render(this.navigation.camera, this.gizmo.controls.object !== undefined);
     this.element.dataset.handle = this.gizmo.handle ?? '';
     this.marks.place(state, this.navigation.camera, this.size);
+    this.lightHandles.place(this.navigation.camera, this.size);
     this.time = moving || turning || state.turntable ? now : 0;
     if (this.time !== 0) this.wake();
   }
@@ -184,6 +198,7 @@ export class Stage {
     this.cameras.clear();
     this.told = null;
     this.picture.forget();
+    this.attention.forget();
     send({ view: this.pixels });
   }
 
@@ -240,6 +255,7 @@ export class Stage {
     this.gizmo.show(state, this.navigation.camera);
     this.overlay.changed();
     this.marks.refresh(state);
+    this.lightHandles.refresh(state);
     this.wake();
   }
 }
