@@ -35,7 +35,7 @@ export function LightsTab() {
     <div className="scroll">
       <section className="section">
         {lights.length === 0 && <Text size="sm" c="dimmed" mb="xs">No lights: the environment alone shines.</Text>}
-        <div role="listbox" aria-label="Lights" data-testid="lights">
+        <div role="list" aria-label="Lights" data-testid="lights">
           {lights.map((one, index) => (
             <LightRow key={index} light={one} index={index} chosen={index === chosen} />
           ))}
@@ -75,11 +75,13 @@ const LightRow = memo(function LightRow({ light, index, chosen }: { light: Named
   const most = Math.max(...color, 1e-9);
   const choose = () => set({ light: index, selection: [] });
   return (
-    <div className="row" role="option" aria-selected={chosen} tabIndex={0} onClick={choose} onKeyDown={(event) => event.key === 'Enter' && choose()}>
-      <span style={{ width: 12, height: 12, borderRadius: '50%', marginInline: 4, background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
-      <span className="name">{light.name || `Light ${index + 1}`}</span>
-      <Text size="xs" c="dimmed">{labelOf(String(light.kind ?? 'point'))} · {short(Number(light.intensity ?? 1), 3)}</Text>
-      <ActionIcon className="act" size={22} aria-label={`Delete light ${light.name || index + 1}`} onClick={(event) => (event.stopPropagation(), choose(), void removeSelection())}>
+    <div className="row" role="listitem" data-chosen={chosen}>
+      <button type="button" className="choose" aria-pressed={chosen} onClick={choose}>
+        <span style={{ width: 12, height: 12, borderRadius: '50%', marginInline: 4, background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
+        <span className="name">{light.name || `Light ${index + 1}`}</span>
+        <Text size="xs" c="dimmed">{labelOf(String(light.kind ?? 'point'))} · {short(Number(light.intensity ?? 1), 3)}</Text>
+      </button>
+      <ActionIcon className="act" size={22} aria-label={`Delete light ${light.name || index + 1}`} onClick={() => (choose(), void removeSelection())}>
         <IconTrash size={14} />
       </ActionIcon>
     </div>

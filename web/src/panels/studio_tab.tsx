@@ -48,7 +48,7 @@ export function StudioTab() {
           allowDeselect={false}
           onChange={(file) => void chooseEnvironment(file || null)}
         />
-        <FileButton accept=".hdr,.exr" onChange={(file) => file && void uploadEnvironment(file)}>
+        <FileButton accept=".hdr,.exr" inputProps={{ 'aria-label': 'Picture of surroundings' }} onChange={(file) => file && void uploadEnvironment(file)}>
           {(props) => <Button {...props} variant="default" size="xs" leftSection={<IconUpload size={14} />}>Picture of surroundings (.hdr, .exr)</Button>}
         </FileButton>
         {hasImage && <FieldList fields={pick(environmentFields, ['rotation', 'intensity'])} values={environment} lengthUnit={scene.unit} onChange={changeEnvironment} />}
