@@ -55,8 +55,11 @@ test('the size of a light, which makes shadows soft, is stepped by keys and drag
   await addLight(page, /^Rectangle/);
   for (const [axis, value] of [['x', '90'], ['y', '85'], ['z', '-20']]) { // into sight
     const box = page.getByLabel(new RegExp(`^Position, ${axis}`));
+    const place = () => page.locator('.light-mark[aria-pressed=true]').getAttribute('style');
+    const before = await place();
     await box.fill(value);
     await box.press('Enter');
+    await expect.poll(place).not.toBe(before);
   }
   const width = handle(page, 'Width');
   await expect(width).toBeVisible();
