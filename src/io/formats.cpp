@@ -22,11 +22,22 @@ Expected<Loaded> at_once(const std::filesystem::path& file, const ReadOptions&) 
     return read(file);
 }
 
-Expected<Loaded> with_textures(Expected<Loaded> read, const std::filesystem::path& file, const ReadOptions& options) {
+// Exact shapes that do not come from further files come from this one.
+void note_sources(Loaded& read, const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::path whole = std::filesystem::weakly_canonical(file, error);
+    if (error) whole = file;
+    for (std::uint32_t i = 0; i < read.scene.shapes.size(); ++i) {
+        if (std::holds_alternative<geometry::Brep>(read.scene.shapes[i].shape)) read.sources.try_emplace(i, ShapeSource{whole, i});
+    }
+}
+
+Expected<Loaded> completed(Expected<Loaded> read, const std::filesystem::path& file, const ReadOptions& options) {
     if (!read) return read;
     auto warnings = load_textures(read->scene.materials, file.string(), {options.texture_pattern});
     if (!warnings) return tl::unexpected(std::move(warnings.error()));
     read->warnings.insert(read->warnings.end(), std::make_move_iterator(warnings->begin()), std::make_move_iterator(warnings->end()));
+    note_sources(*read, file);
     return read;
 }
 
@@ -68,7 +79,7 @@ Expected<Loaded> read_scene(const std::filesystem::path& file, const ReadOptions
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     std::vector<std::string> known;
     for (const Format& format : formats()) {
-        if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return with_textures(format.read(file, options), file, options);
+        if (std::find(format.extensions.begin(), format.extensions.end(), extension) != format.extensions.end()) return completed(format.read(file, options), file, options);
         known.insert(known.end(), format.extensions.begin(), format.extensions.end());
     }
     std::error_code code;

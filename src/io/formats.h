@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,11 +16,19 @@
 
 namespace crescente::io {
 
+// Where the exact faces of a shape are to be had again: they are known by their file alone.
+struct ShapeSource {
+    std::filesystem::path file;
+    std::uint32_t index = 0;  // among the shapes that the file is read as
+};
+using ShapeSources = std::map<std::uint32_t, ShapeSource>;  // by index of the shape in the scene, which it keeps for good
+
 // A scene read from a file, with what the reader could not honour (textures, animations, repaired faces).
 struct Loaded {
     scene::Scene scene;
     Problems warnings;
     std::optional<CadCounts> cad = {};  // of CAD files: their faces by kind
+    ShapeSources sources = {};          // of all shapes that are Breps
 };
 
 // What reading a file may use and tell. Formats that are read at once make nothing of it.
@@ -40,7 +49,7 @@ struct Format {
 
 std::span<const Format> formats();
 
-// Reads any format, chosen by extension, and the pictures of its textures. Errors: missing file, unknown extension (with what is known), and what the reader finds. The scene
+// Reads any format, chosen by extension, and the pictures of its textures; exact shapes are told with their sources. Errors: missing file, unknown extension (with what is known), and what the reader finds. The scene
 // is not validated yet (scene/validate.h).
 Expected<Loaded> read_scene(const std::filesystem::path& file, const ReadOptions& options = {});
 

@@ -1,6 +1,8 @@
 #include "io/scene_file.h"
 
 #include <cctype>
+#include <deque>
+#include <limits>
 #include <map>
 #include <unordered_map>
 
@@ -31,6 +33,7 @@ struct Loading {
     Loaded loaded;
     Problems problems;
     std::map<fs::path, std::optional<Roots>> files;         // nothing: being read
+    std::map<fs::path, std::deque<scene::NamedShape>> shapes_of;  // of model files whose shapes are named one by one
     std::vector<fs::path> chain;                            // the files being read, outermost first
     std::unordered_map<std::uint32_t, NodeId> without_materials;  // copies of nodes whose own materials were taken away
     int depth = 0;
@@ -52,6 +55,11 @@ void turn(Owner& owner, const Affine& rotation, std::initializer_list<Vec3 Owner
 }
 void turn(scene::Camera& c, const Affine& r) { turn(c, r, {&scene::Camera::position, &scene::Camera::target, &scene::Camera::up, &scene::Camera::travel, &scene::Camera::target_travel}); }
 void turn(scene::Light& l, const Affine& r) { turn(l, r, {&scene::Light::position, &scene::Light::direction, &scene::Light::up}); }
+
+// The kind of shapes whose faces are in another file.
+const std::string part_name{*std::rbegin(geometry::shape_names)};
+
+bool is_scene_file(const fs::path& file) { return file.extension() == ".json"; }
 
 bool is_url(const std::string& path) {
     const auto colon = path.find(':');
@@ -132,7 +140,8 @@ private:
         if (const Json* shapes = json.find("shapes")) {
             for_each_entry(*shapes, top / "shapes", problems_, [&](const Json& value, const Place& place, const std::string& key) {
                 const std::string shape_name = read_name(value, place, key, problems_);
-                auto shape = read_shape(value, measure_, place, problems_);
+                const Json* part = value.find(part_name);
+                auto shape = part ? read_part(value, *part, place) : read_shape(value, measure_, place, problems_);
                 scene().shapes.push_back({shape_name, shape ? std::move(*shape) : geometry::Shape{}});
                 shapes_.add(handle(key, shape_name), std::uint32_t(scene().shapes.size() - 1), value, place, problems_);
             });
@@ -156,6 +165,49 @@ private:
         scene().nodes[turned.value].transform = upright;
         scene().nodes[turned.value].children = std::move(roots);
         return {turned};
+    }
+
+    // The exact faces of a shape of a model file, for the shape that comes next.
+    std::optional<geometry::Shape> read_part(const Json& json, const Json& part, const Place& place) {
+        const std::vector<std::string> own{part_name, name_word().name};
+        for (const auto& member : *json.object()) {
+            if (std::find(own.begin(), own.end(), member.key) == own.end()) unknown_member(member, place, own, problems_);
+        }
+        const Place here = place / part_name;
+        if (!part.object()) return must_be(part, here, "an object"), std::nullopt;
+        const auto known = names_of(brep_words());
+        for (const auto& member : *part.object()) {
+            if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_member(member, here, known, problems_);
+        }
+        const Json* file = part.find("file");
+        if (!file) return problems_.add(part, here, "has no member 'file'"), std::nullopt;
+        std::uint32_t index = 0;
+        if (const Json* which = part.find("index")) {
+            const std::int64_t* number = which->integer();
+            if (!number || *number < 0 || *number > std::numeric_limits<std::int32_t>::max()) return must_be(*which, here / "index", "a whole number, 0 or more"), std::nullopt;
+            index = static_cast<std::uint32_t>(*number);
+        }
+        const auto identity = existing_file(*file, here / "file");
+        if (!identity) return std::nullopt;
+        if (is_scene_file(*identity)) return problems_.add(*file, here / "file", "is a scene file: name the model file itself"), std::nullopt;
+        const std::deque<scene::NamedShape>& shapes = shapes_of(*identity);
+        if (index >= shapes.size()) {
+            if (!shapes.empty()) problems_.add(part, here, "there is no shape " + std::to_string(index) + " among the " + std::to_string(shapes.size()) + " of the file");
+            return std::nullopt;
+        }
+        if (!std::holds_alternative<geometry::Brep>(shapes[index].shape)) return problems_.add(part, here, "shape " + std::to_string(index) + " of the file is no exact one"), std::nullopt;
+        loading_.loaded.sources[static_cast<std::uint32_t>(scene().shapes.size())] = {*identity, index};
+        return shapes[index].shape;
+    }
+
+    // Read at the first mention. Where it cannot be, that is told once, and there are none.
+    const std::deque<scene::NamedShape>& shapes_of(const fs::path& file) {
+        const auto [found, is_new] = loading_.shapes_of.try_emplace(file);
+        if (!is_new) return found->second;
+        auto model = read_scene(file, loading_.options);
+        if (!model) return take_problems(model.error()), found->second;
+        for (Problem& warning : model->warnings) loading_.loaded.warnings.push_back(std::move(warning));
+        return found->second = std::move(model->scene.shapes);
     }
 
     void read_measure(const Json& json, const Place& top) {
@@ -250,25 +302,31 @@ private:
     NodeId add_node() override { return loading_.new_node(); }
     void set(NodeId node, scene::Node value) override { scene().nodes[node.value] = std::move(value); }
 
-    // The top nodes of another file, read at its first mention.
-    Roots file_roots(const Json& json, const Place& place) {
-        if (!json.text() || json.text()->empty() || json.text()->find('\0') != std::string::npos) return must_be(json, place, "the path of a file"), Roots{};
+    // The file that is named, by its whole path. Nothing, told: there is none.
+    std::optional<fs::path> existing_file(const Json& json, const Place& place) {
+        if (!json.text() || json.text()->empty() || json.text()->find('\0') != std::string::npos) return must_be(json, place, "the path of a file"), std::nullopt;
         const std::string& reference = *json.text();
-        if (is_url(reference)) return problems_.add(json, place, "'" + reference.substr(0, 100) + "' is an address, not a file's path"), Roots{};
+        if (is_url(reference)) return problems_.add(json, place, "'" + reference.substr(0, 100) + "' is an address, not a file's path"), std::nullopt;
         std::error_code error;
         const fs::path file = folder_ / reference;
         fs::path identity = fs::weakly_canonical(file, error);
         if (error) identity = file;
+        if (loading_.files.contains(identity) || fs::is_regular_file(identity, error)) return identity;
+        return problems_.add(json, place, "there is no file '" + reference.substr(0, 300) + "'"), std::nullopt;
+    }
+
+    // The top nodes of another file, read at its first mention.
+    Roots file_roots(const Json& json, const Place& place) {
+        const auto found = existing_file(json, place);
+        if (!found) return {};
+        const fs::path &identity = *found, file = folder_ / *json.text();
         if (const auto known = loading_.files.find(identity); known != loading_.files.end()) {
             if (known->second) return *known->second;
             problems_.add(json, place, "the files refer to each other in a ring: " + ring_text(identity));
             return {};
         }
-        if (!fs::is_regular_file(identity, error)) {
-            return problems_.add(json, place, "there is no file '" + reference.substr(0, 300) + "'"), Roots{};
-        }
         loading_.files[identity] = std::nullopt;
-        Roots roots = identity.extension() == ".json" ? read_inner_scene(file, identity) : read_model(file);
+        Roots roots = is_scene_file(identity) ? read_inner_scene(file, identity) : read_model(file);
         loading_.files[identity] = roots;
         return roots;
     }
@@ -290,6 +348,7 @@ private:
         Scene& from = model->scene;
         Scene& to = scene();
         const auto materials = std::uint32_t(to.materials.size()), shapes = std::uint32_t(to.shapes.size()), nodes = std::uint32_t(to.nodes.size());
+        for (auto& [shape, source] : model->sources) loading_.loaded.sources[shape + shapes] = std::move(source);
         for (auto& material : from.materials) to.materials.push_back(std::move(material));
         for (auto& shape : from.shapes) to.shapes.push_back(std::move(shape));
         for (auto& node : from.nodes) {

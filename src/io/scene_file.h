@@ -20,7 +20,11 @@ Expected<Loaded> read_scene_text(std::string_view text, const std::string& name,
 
 // The scene as a text that reads back to an equal scene: same values to the bit, same names, same sharing. Lengths are written in
 // scene.unit where that is a unit of the format, else in metres; a length that no number of that unit gives exactly is rounded
-// to the nearest. What came from other files is written out. The scene must be valid.
-std::string write_scene_text(const scene::Scene& scene);
+// to the nearest. What came from other files is written out, but for exact faces of CAD files, which refer to theirs; each of them must have a source.
+// The scene must be valid.
+std::string write_scene_text(const scene::Scene& scene, const ShapeSources& sources = {});
+
+// The same into a file, which refers to model files in its folder, or below, by where they are from there. Errors (output): it cannot be written.
+Expected<void> write_scene_file(const std::filesystem::path& file, const scene::Scene& scene, ShapeSources sources = {});
 
 }  // namespace crescente::io

@@ -249,6 +249,10 @@ std::optional<Shape> read_shape(const Json& json, const Measure& measure, const 
     for (const auto& member : *json.object()) {
         if (member.key == name_word().name) continue;
         says_a_kind = true;
+        if (member.key == *std::rbegin(geometry::shape_names)) {
+            problems.add(member.value, place / member.key, "exact faces of a model file are named among the `shapes` of a scene file only");
+            continue;
+        }
         const auto kind = std::find(kinds.begin(), kinds.end(), member.key);
         if (kind == kinds.end()) {
             unknown_member(member, place, kinds, problems);

@@ -94,17 +94,21 @@ void add_arrays(const geometry::Polygon&, ordered_json& schema) {
     schema["properties"].update(object_with(polygon_words(), {{"loops", list_of(loop)}})["properties"]);
     schema["required"] = {"loops"};
 }
+void add_arrays(const geometry::Brep&, ordered_json& schema) {
+    schema["properties"].update(object_with(brep_words(), {{"file", text()}, {"index", {{"type", "integer"}, {"minimum", 0}}}})["properties"]);
+    schema["required"] = {"file"};
+}
 template <class Kind>
 void add_arrays(const Kind&, ordered_json& schema) {
     if constexpr (has_spline_arrays<Kind>) add_spline_schema<Kind>(schema);
 }
 
-// Calls visit(name, a default shape) for each kind that a native scene can spell out: faces of CAD parts come from their own files.
+// Calls visit(name, a default shape) for each kind.
 template <class Visit, std::size_t i = 0>
 void for_each_kind(Visit&& visit) {
     if constexpr (i < std::variant_size_v<geometry::Shape>) {
         using Kind = std::variant_alternative_t<i, geometry::Shape>;
-        if constexpr (!std::is_same_v<Kind, geometry::Brep>) visit(std::string(geometry::shape_names[i]), Kind{});
+        visit(std::string(geometry::shape_names[i]), Kind{});
         for_each_kind<Visit, i + 1>(std::forward<Visit>(visit));
     }
 }
@@ -307,6 +311,7 @@ std::string scene_reference() {
         else if (!Kind::fields().empty()) return;
         else if constexpr (std::is_same_v<Kind, geometry::Mesh>) out += word_table(mesh_words());
         else if constexpr (std::is_same_v<Kind, geometry::Polygon>) out += word_table(polygon_words());
+        else if constexpr (std::is_same_v<Kind, geometry::Brep>) out += "The exact faces of a CAD part, in that file's own units and axes. Only among the scene's `shapes`.\n\n" + word_table(brep_words());
         else out += "No parameters.\n";
     });
     out += "\n### Curves\n\nOf revolution, extrusion and ruled.\n\n" + field_table(geometry::Curve::fields()) + "\n" + word_table(curve_words());

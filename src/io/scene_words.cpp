@@ -75,6 +75,14 @@ std::span<const Word> polygon_words() {
     return words;
 }
 
+std::span<const Word> brep_words() {
+    static const std::vector<Word> words{
+        {"file", "path", "A model file with exact faces (STEP, IGES, BREP); relative to this file"},
+        {"index", "whole number", "Which of the shapes of that file, counted from 0; 0 if left out"},
+    };
+    return words;
+}
+
 const Word& name_word() {
     static const Word word{"name", "text", "The name, where it is not the key"};
     return word;

@@ -20,6 +20,7 @@ std::span<const Word> transform_words();  // each a step of a transform
 std::span<const Word> rotate_words();
 std::span<const Word> mesh_words();
 std::span<const Word> polygon_words();
+std::span<const Word> brep_words();
 const Word& name_word();   // for things in a list, or under another key than their name
 const Word& model_word();     // of a material
 const Word& library_word();   // of a material

@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/atomic_file.h"
 #include "io/json_fields.h"
 #include "io/json_print.h"
 #include "io/scene_file.h"
@@ -45,7 +46,7 @@ private:
 
 class Writer {
 public:
-    explicit Writer(const Scene& scene) : scene_(scene), measure_(measure_of(scene)) {}
+    Writer(const Scene& scene, const ShapeSources& sources) : scene_(scene), sources_(sources), measure_(measure_of(scene)) {}
 
     std::string write() {
         out_ = "{";
@@ -133,7 +134,8 @@ private:
         out_ += '{';
         Keys keys{"shape"};
         bool first = true;
-        for (const auto& shape : scene_.shapes) {
+        for (std::uint32_t i = 0; i < scene_.shapes.size(); ++i) {
+            const scene::NamedShape& shape = scene_.shapes[i];
             shape_keys_.push_back(keys.key_for(shape.name));
             ordered_json json = named(shape.name, shape_keys_.back());
             const std::string kind{geometry::shape_names[shape.shape.index()]};
@@ -142,6 +144,10 @@ private:
                 write_arrays(s, parameters);
                 return parameters;
             }, shape.shape);
+            if (std::holds_alternative<geometry::Brep>(shape.shape)) {
+                const ShapeSource& source = sources_.at(i);
+                json[kind] = {{"file", valid_text(source.file.string())}, {"index", source.index}};
+            }
             begin_entry(out_, first, shape_keys_.back());
             print_json(json, out_, 4);
         }
@@ -269,6 +275,7 @@ private:
     }
 
     const Scene& scene_;
+    const ShapeSources& sources_;
     Measure measure_;
     std::string out_;
     std::vector<std::string> material_keys_, shape_keys_;
@@ -279,6 +286,16 @@ private:
 
 }  // namespace
 
-std::string write_scene_text(const Scene& scene) { return Writer{scene}.write(); }
+Expected<void> write_scene_file(const std::filesystem::path& file, const Scene& scene, ShapeSources sources) {
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::weakly_canonical(std::filesystem::absolute(file, error).parent_path(), error);
+    for (auto& [shape, source] : sources) {
+        const std::filesystem::path from_there = source.file.lexically_relative(folder);
+        if (!error && !from_there.empty() && *from_there.begin() != "..") source.file = from_there;
+    }
+    return write_atomically(file, write_scene_text(scene, sources));
+}
+
+std::string write_scene_text(const Scene& scene, const ShapeSources& sources) { return Writer{scene, sources}.write(); }
 
 }  // namespace crescente::io

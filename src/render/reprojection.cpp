@@ -1,7 +1,10 @@
 #include "render/reprojection.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
+#include <limits>
 
 #include "render/film.h"
 
@@ -9,83 +12,155 @@ namespace crescente::render {
 namespace {
 
 // Nearer points have smaller keys; of equally near ones the first wins, whatever order they come in. Depths are positive, so their bits order as they do.
-constexpr std::uint64_t nothing = ~std::uint64_t{0};
-std::uint64_t key_of(float depth, std::uint32_t point) { return std::uint64_t{std::bit_cast<std::uint32_t>(depth)} << 32 | point; }
-float depth_of(std::uint64_t key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
-std::uint32_t point_of_key(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
+using Key = std::int64_t;
+constexpr Key nothing = std::numeric_limits<Key>::max();
+Key key_of(float depth, std::uint32_t point) { return Key{std::bit_cast<std::int32_t>(depth)} << 32 | Key{point}; }
+float depth_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
+std::uint32_t point_of_key(Key key) { return static_cast<std::uint32_t>(key); }
 constexpr float farthest = std::numeric_limits<float>::max();
 
-void keep_least(std::uint64_t& place, std::uint64_t key) {
-    std::atomic_ref<std::uint64_t> least(place);
-    std::uint64_t was = least.load(std::memory_order_relaxed);
+void keep_least(Key& place, Key key) {
+    std::atomic_ref<Key> least(place);
+    Key was = least.load(std::memory_order_relaxed);
     while (key < was && !least.compare_exchange_weak(was, key, std::memory_order_relaxed)) {}
 }
 
-std::vector<std::uint64_t> nearest_points(std::span<const SeenPoint> points, const CameraRays& camera, int width, int height, parallel::Pool& pool) {
-    std::vector<std::uint64_t> nearest(points.size(), nothing);
+// CameraRays::project() for many points: what is the same for all of them is worked out once.
+class Projection {
+public:
+    Projection(const CameraRays& camera, int width, int height)
+        : position_(camera.position()), forward_(camera.forward()), parallel_(!camera.project_direction(forward_)), near_(camera.through(width / 2.0, height / 2.0).t_min), half_width_(width / 2.0), half_height_(height / 2.0) {
+        // From the middle of the picture to its right and upper edges.
+        const auto edge = [&](double x, double y) {
+            const geometry::Ray ray = camera.through(x, y);
+            const Vec3 way = parallel_ ? ray.origin - position_ : ray.direction / dot(ray.direction, forward_) - forward_;
+            return way / dot(way, way);
+        };
+        right_ = edge(width, half_height_) * half_width_;
+        up_ = edge(half_width_, 0) * half_height_;
+    }
+
+    // The pixel whose corner, half a pixel off its middle, is nearest to where it is seen. depth: not positive where it is not seen.
+    struct Place {
+        double x, y, depth;
+    };
+    Place of_point(Vec3 point) const {
+        const Vec3 way = point - position_;
+        const double depth = dot(way, forward_);
+        return at(way, parallel_ ? 1.0 : depth, depth > near_ ? depth : 0.0);
+    }
+    Place of_direction(Vec3 direction) const {
+        const double depth = dot(direction, forward_);
+        return at(direction, depth, parallel_ ? 0.0 : depth);
+    }
+
+private:
+    Place at(Vec3 way, double scale, double depth) const {
+        const double inverse = 1 / scale;
+        return {std::floor(dot(way, right_) * inverse + half_width_ + 0.5), std::floor(half_height_ - dot(way, up_) * inverse + 0.5), depth};
+    }
+
+    Vec3 position_, forward_, right_, up_;
+    bool parallel_;
+    double near_, half_width_, half_height_;
+};
+
+// The nearest point of each pixel, with a border around them in which there is nothing, so that each has eight neighbours.
+struct Nearest {
+    int width, height;
+    std::size_t stride;
+    std::vector<Key> keys;
+
+    Nearest(int w, int h) : width(w), height(h), stride(static_cast<std::size_t>(w) + 2), keys(stride * (static_cast<std::size_t>(h) + 2), nothing) {}
+    Key* row(std::size_t y) { return &keys[(y + 1) * stride + 1]; }
+    const Key* row(std::size_t y) const { return &keys[(y + 1) * stride + 1]; }
+};
+
+Nearest nearest_points(std::span<const SeenPoint> points, const CameraRays& camera, int width, int height, parallel::Pool& pool) {
+    Nearest nearest(width, height);
+    const Projection projection(camera, width, height);
     pool.for_each(static_cast<std::size_t>(height), [&](std::size_t row) {
         const std::size_t first = row * static_cast<std::size_t>(width);
-        for (std::size_t i = first; i < first + static_cast<std::size_t>(width); ++i) {
-            const SeenPoint& point = points[i];
+        for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+            const SeenPoint& point = points[first + x];
             if (point.kind == SeenPoint::Kind::unknown) continue;
-            const auto index = static_cast<std::uint32_t>(i);
+            const auto index = static_cast<std::uint32_t>(first + x);
             if (point.kind == SeenPoint::Kind::backdrop) {
-                keep_least(nearest[i], key_of(farthest, index));
+                keep_least(nearest.row(row)[x], key_of(farthest, index));
                 continue;
             }
             const Vec3 at{point.position[0], point.position[1], point.position[2]};
             const bool far = point.kind == SeenPoint::Kind::far;
-            const auto seen = far ? camera.project_direction(at) : camera.project(at);
-            if (!seen) continue;
-            const double x = std::floor(seen->x + 0.5), y = std::floor(seen->y + 0.5);  // corners are half a pixel off the middle
-            if (!(x >= 0 && y >= 0 && x < width && y < height)) continue;
-            const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            keep_least(nearest[pixel], key_of(far ? farthest : static_cast<float>(seen->depth), index));
+            const Projection::Place seen = far ? projection.of_direction(at) : projection.of_point(at);
+            if (!(seen.depth > 0 && seen.x >= 0 && seen.y >= 0 && seen.x < width && seen.y < height)) continue;
+            keep_least(nearest.row(static_cast<std::size_t>(seen.y))[static_cast<std::size_t>(seen.x)], key_of(far ? farthest : static_cast<float>(seen.depth), index));
         }
     });
     return nearest;
 }
 
-// Whether most of what is around the pixel is clearly nearer: then it is seen through a gap.
-bool shows_through(const std::vector<std::uint64_t>& nearest, int x, int y, int width, int height) {
-    constexpr float clearly = 0.97f;
-    constexpr int most = 5;
-    const auto at = [&](int i, int j) { return nearest[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)]; };
-    const float depth = depth_of(at(x, y));
-    int nearer = 0;
-    for (int j = std::max(0, y - 1); j <= std::min(height - 1, y + 1); ++j) {
-        for (int i = std::max(0, x - 1); i <= std::min(width - 1, x + 1); ++i) nearer += at(i, j) != nothing && depth_of(at(i, j)) < clearly * depth;
-    }
-    return nearer >= most;
-}
+constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();  // depth of a hole
 
 struct Grid {
     int width, height;
     std::vector<Rgb> colors;
-    std::vector<std::uint8_t> known;
+    std::vector<float> depths;
 
+    Grid(int w, int h) : width(w), height(h), colors(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)), depths(colors.size(), nowhere) {}
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); }
+    bool is_known(std::size_t i) const { return depths[i] == depths[i]; }
 };
 
-// Means of what is known in each square of four.
+// The nearest points as a picture. Left out are those around which most is clearly nearer: they are seen through a gap.
+Grid seen_of(std::span<const SeenPoint> points, const Nearest& nearest, parallel::Pool& pool) {
+    constexpr float clearly = 0.97f;
+    constexpr Key most = 5;
+    Grid grid(nearest.width, nearest.height);
+    pool.for_each(static_cast<std::size_t>(nearest.height), [&](std::size_t y) {
+        const Key *here = nearest.row(y), *above = here - nearest.stride, *below = here + nearest.stride;
+        const std::size_t first = y * static_cast<std::size_t>(nearest.width);
+        std::vector<Key> nearer(static_cast<std::size_t>(nearest.width));
+        for (int x = 0; x < nearest.width; ++x) {
+            const Key limit = key_of(clearly * depth_of(here[x]), 0);
+            const auto is = [limit](Key key) { return static_cast<Key>(key < limit); };
+            nearer[static_cast<std::size_t>(x)] = is(above[x - 1]) + is(above[x]) + is(above[x + 1]) + is(here[x - 1]) + is(here[x + 1]) + is(below[x - 1]) + is(below[x]) + is(below[x + 1]);
+        }
+        for (int x = 0; x < nearest.width; ++x) {
+            if (here[x] == nothing || nearer[static_cast<std::size_t>(x)] >= most) continue;
+            const std::size_t i = first + static_cast<std::size_t>(x);
+            grid.colors[i] = points[point_of_key(here[x])].color;
+            grid.depths[i] = depth_of(here[x]);
+        }
+    });
+    return grid;
+}
+
+// In each square of four the mean of what is about as far as the farthest: what a moving camera lays bare lies behind what hid it.
 Grid coarser(const Grid& fine, parallel::Pool& pool) {
-    Grid coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
-    coarse.colors.resize(static_cast<std::size_t>(coarse.width) * static_cast<std::size_t>(coarse.height));
-    coarse.known.resize(coarse.colors.size());
+    constexpr float about = 0.97f;
+    Grid coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
     pool.for_each(static_cast<std::size_t>(coarse.height), [&](std::size_t row) {
         const int y = static_cast<int>(row);
         for (int x = 0; x < coarse.width; ++x) {
-            Rgb sum;
-            int count = 0;
+            std::array<std::size_t, 4> known{};
+            std::size_t count = 0;
+            float far = 0;
             for (int k = 0; k < 4; ++k) {
                 const int i = 2 * x + (k & 1), j = 2 * y + (k >> 1);
-                if (i >= fine.width || j >= fine.height || !fine.known[fine.index(i, j)]) continue;
-                sum += fine.colors[fine.index(i, j)];
-                ++count;
+                if (i >= fine.width || j >= fine.height || !fine.is_known(fine.index(i, j))) continue;
+                known[count++] = fine.index(i, j);
+                far = std::max(far, fine.depths[known[count - 1]]);
             }
             if (count == 0) continue;
-            coarse.colors[coarse.index(x, y)] = sum * (1 / static_cast<float>(count));
-            coarse.known[coarse.index(x, y)] = 1;
+            Rgb sum;
+            int summed = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                if (fine.depths[known[k]] < about * far) continue;
+                sum += fine.colors[known[k]];
+                ++summed;
+            }
+            coarse.colors[coarse.index(x, y)] = sum * (1 / static_cast<float>(summed));
+            coarse.depths[coarse.index(x, y)] = far;
         }
     });
     return coarse;
@@ -99,7 +174,7 @@ void fill_holes(Grid& grid, parallel::Pool& pool) {
         pool.for_each(static_cast<std::size_t>(fine.height), [&](std::size_t row) {
             const int y = static_cast<int>(row);
             for (int x = 0; x < fine.width; ++x) {
-                if (!fine.known[fine.index(x, y)]) fine.colors[fine.index(x, y)] = coarse[i].colors[coarse[i].index(x / 2, y / 2)];
+                if (!fine.is_known(fine.index(x, y))) fine.colors[fine.index(x, y)] = coarse[i].colors[coarse[i].index(x / 2, y / 2)];
             }
         });
     }
@@ -125,19 +200,11 @@ void take_points(const Tile& tile, std::span<const Rgb> displayed, bool backdrop
 }
 
 Reprojected reproject(std::span<const SeenPoint> points, const CameraRays& camera, int width, int height, parallel::Pool& pool) {
-    const std::vector<std::uint64_t> nearest = nearest_points(points, camera, width, height, pool);
-    Grid grid{width, height, std::vector<Rgb>(nearest.size()), std::vector<std::uint8_t>(nearest.size())};
-    pool.for_each(static_cast<std::size_t>(height), [&](std::size_t row) {
-        const int y = static_cast<int>(row);
-        for (int x = 0; x < width; ++x) {
-            const std::size_t i = grid.index(x, y);
-            if (nearest[i] == nothing || shows_through(nearest, x, y, width, height)) continue;
-            grid.colors[i] = points[point_of_key(nearest[i])].color;
-            grid.known[i] = 1;
-        }
-    });
+    Grid grid = seen_of(points, nearest_points(points, camera, width, height, pool), pool);
+    std::vector<std::uint8_t> seen(grid.depths.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = grid.is_known(i);
     fill_holes(grid, pool);
-    return {std::move(grid.colors), std::move(grid.known)};
+    return {std::move(grid.colors), std::move(seen)};
 }
 
 }  // namespace crescente::render

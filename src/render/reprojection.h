@@ -28,7 +28,7 @@ struct Reprojected {
 };
 
 // The points of a picture, width x height of them, as `camera`, of the same size, sees them: the nearest in each pixel, without those that show through gaps between nearer ones. Holes
-// get the mean of what is around them (pull-push: Gortler, Grzeszczuk, Szeliski and Cohen 1996, "The Lumigraph", section 3.4). The same on any number of threads.
+// get the mean of the farthest of what is around them, which lies behind what moved away (pull-push: Gortler, Grzeszczuk, Szeliski and Cohen 1996, "The Lumigraph", section 3.4). The same on any number of threads.
 Reprojected reproject(std::span<const SeenPoint> points, const CameraRays& camera, int width, int height, parallel::Pool& pool);
 
 }  // namespace crescente::render

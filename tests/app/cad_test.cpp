@@ -1,5 +1,7 @@
 // CAD files by the real program: info, cache, compare.
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -54,6 +56,45 @@ TEST_F(Cad, TheCacheIsUsedUnlessForbidden) {
     EXPECT_EQ(entries(), 1u);
     ASSERT_EQ(crescente({"info", assembly_}).code, 0);
     EXPECT_EQ(entries(), 1u);
+}
+
+// What edits made of a CAD model is a scene file of its own, which names the model for its exact faces.
+TEST_F(Cad, EditedModelsAreWrittenAsScenesAndRenderAlike) {
+    fs::copy_file(assembly_, cache_ / "as1.stp");
+    const fs::path script = cache_ / "edits.jsonl", scene = cache_ / "edited.json", again = cache_ / "again.json", first = cache_ / "first.png", second = cache_ / "second.png", third = cache_ / "third.png";
+    std::ofstream(script) << R"({"material": {"name": "gold", "base_color": [1, 0.7, 0.3], "metallic": 1, "roughness": 0.2}}
+{"assign": {"object": "plate_1", "material": "gold", "below": true}}
+{"move": {"object": "rod-assembly_1", "by": [{"rotate": {"axis": "y", "angle": 20}}, {"translate": [7.3, 11, 0]}]}}
+{"remove": "l-bracket-assembly_1"}
+{"light": {"name": "lamp", "position": [50, 300, 200], "intensity": 0.3}}
+{"hide": "nut_1"}
+)";
+    const std::vector<std::string> size{"--size", "160x100", "-q"};
+    const auto run = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), size.begin(), size.end());
+        return crescente(std::move(arguments));
+    };
+    const Outcome edited = run({"edit", (cache_ / "as1.stp").string(), script.string(), "-o", first.string(), "-o", scene.string()});
+    ASSERT_EQ(edited.code, 0) << edited.err;
+    const auto content = [](const fs::path& file) {
+        std::ifstream stream(file, std::ios::binary);
+        return std::string((std::istreambuf_iterator<char>(stream)), {});
+    };
+    EXPECT_TRUE(contains(content(scene), R"("file": "as1.stp")")) << "beside it, so by its name";
+    const Outcome rendered = run({"render", scene.string(), "-o", second.string()});
+    ASSERT_EQ(rendered.code, 0) << rendered.err;
+    const auto pixels = [&](const fs::path& png) {  // without the command that made it
+        const std::string bytes = content(png);
+        return bytes.substr(bytes.find("IDAT"));
+    };
+    EXPECT_TRUE(pixels(first) == pixels(second));
+    // The scene may be edited and written again, and elsewhere.
+    fs::create_directory(cache_ / "elsewhere");
+    std::ofstream(script) << "";
+    ASSERT_EQ(run({"edit", scene.string(), script.string(), "-o", again.string(), "-o", (cache_ / "elsewhere/far.json").string()}).code, 0);
+    EXPECT_TRUE(content(again) == content(scene));
+    ASSERT_EQ(run({"render", (cache_ / "elsewhere/far.json").string(), "-o", third.string()}).code, 0);
+    EXPECT_TRUE(pixels(third) == pixels(first));
 }
 
 TEST_F(Cad, CompareTellsHowFarTrianglesStray) {

@@ -1,5 +1,6 @@
 // Camera moves: the new view begins with the old picture as far as it is seen from there.
 #include "render/camera_rays.h"
+#include "render/reprojection.h"
 #include "render/scenes.h"
 
 namespace crescente::render::testing {
@@ -104,6 +105,53 @@ TEST(Reprojection, IsMarkedAsPreview) {
     session.advance(Deadline::never());
     const scene::Image done = session.picture(true);
     EXPECT_EQ(std::count(layer(done, "level").values.begin(), layer(done, "level").values.end(), -1.0f), 0);
+}
+
+constexpr int width = 96, height = 64;
+constexpr Rgb red{1, 0, 0}, blue{0, 0, 1};
+
+scene::Camera camera_at(double x, double z) {
+    scene::Camera camera;
+    camera.position = {x, 0, z};
+    camera.target = {x, 0, 0};
+    return camera;
+}
+
+// A red square at z = 3 before a blue wall at z = 0, as the camera sees them.
+std::vector<SeenPoint> square_before_wall(const CameraRays& camera) {
+    std::vector<SeenPoint> points;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const geometry::Ray ray = camera.through(x, y);
+            const auto at = [&](double z) { return ray.origin + ray.direction * ((z - ray.origin.z) / ray.direction.z); };
+            const Vec3 near = at(3), far = at(0);
+            const bool square = std::abs(near.x) < 0.3 && std::abs(near.y) < 0.3;
+            const Vec3 hit = square ? near : far;
+            points.push_back({SeenPoint::Kind::surface, {static_cast<float>(hit.x), static_cast<float>(hit.y), static_cast<float>(hit.z)}, square ? red : blue});
+        }
+    }
+    return points;
+}
+
+// Where the square was the wall comes into sight: it is like the wall, or along the square like that, and nowhere between the two.
+TEST(Reprojection, WhatIsLaidBareLooksLikeWhatIsBehind) {
+    const auto points = square_before_wall(CameraRays(camera_at(0, 5), width, height));
+    const CameraRays moved(camera_at(0.25, 5), width, height);
+    parallel::Pool pool(2);
+    const Reprojected picture = reproject(points, moved, width, height, pool);
+    int like_wall = 0, like_square = 0, squares = 0;
+    for (int y = 4; y < height - 4; ++y) {
+        for (int x = 4; x < width - 12; ++x) {  // at the right what the old picture did not have comes in
+            const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+            squares += picture.pixels[i] == red;
+            if (picture.seen[i]) continue;
+            like_wall += picture.pixels[i] == blue;
+            like_square += picture.pixels[i] == red;
+            EXPECT_TRUE(picture.pixels[i] == blue || picture.pixels[i] == red) << x << ' ' << y;
+        }
+    }
+    EXPECT_GT(like_wall, like_square);
+    EXPECT_GT(squares, 300);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // crescente edit MODEL SCRIPT
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "app/cli/checkpoints.h"
@@ -14,6 +16,7 @@
 #include "app/cli/stop.h"
 #include "base/atomic_file.h"
 #include "io/content_hash.h"
+#include "io/scene_file.h"
 #include "io/text_file.h"
 
 namespace crescente::app {
@@ -27,10 +30,13 @@ struct EditOptions {
     bool check = false, quiet = false;
 };
 
+// Whether that output is not a picture but the scene itself.
+bool is_scene(const std::filesystem::path& output) { return output.extension() == ".json"; }
+
 // Every picture, the report and the checkpoint, before anything is rendered.
 Expected<void> check_outputs(const EditOptions& options, const CheckpointRequest& checkpoint, const std::vector<io::ScriptLine>& lines) {
     OutputCheck all;
-    for (const std::string& output : options.picture.outputs) all.add(io::can_write(output));
+    for (const std::string& output : options.picture.outputs) all.add(is_scene(output) ? can_write_file(output) : io::can_write(output));
     if (!options.report_file.empty()) all.add(can_write_file(options.report_file));
     all.add(check(checkpoint));
     for (const io::ScriptLine& line : lines) {
@@ -99,7 +105,9 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
     }();
     if (!loaded) return fail(loaded.error());
     warn(loaded->warnings);
-    if (const auto writable = check_alpha(options.picture.outputs, loaded->scene); !writable) return fail(writable.error());
+    std::vector<std::string> pictures;
+    std::remove_copy_if(options.picture.outputs.begin(), options.picture.outputs.end(), std::back_inserter(pictures), is_scene);
+    if (const auto writable = check_alpha(pictures, loaded->scene); !writable) return fail(writable.error());
     const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
 
@@ -176,7 +184,11 @@ ExitCode edit(const EditOptions& options, const Invocation& invocation) {
         say(equal ? "check: the picture is that of a fresh render, to the bit\n"
                   : "check: " + std::to_string(different) + " pixels differ from a fresh render\n");
     }
-    if (const auto written = write_pictures(session, options.picture.outputs, options.picture, invocation); !written) return fail(written.error());
+    if (const auto written = write_pictures(session, pictures, options.picture, invocation); !written) return fail(written.error());
+    for (const std::string& output : options.picture.outputs) {
+        if (!is_scene(output)) continue;
+        if (const auto written = io::write_scene_file(output, session.scene(), loaded->sources); !written) return fail(written.error());
+    }
     if (!options.report_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
         if (const auto written = write_atomically(options.report_file, text); !written) return fail(written.error());
@@ -205,7 +217,8 @@ Command add_edit(CLI::App& app) {
         "is let grow to the end.\n\n"
         "Examples:\n"
         "  crescente edit engine.glb edits.jsonl -o edited.png --size 1920x1080\n"
-        "  crescente edit scene.json edits.jsonl --check --json costs.json");
+        "  crescente edit scene.json edits.jsonl --check --json costs.json\n"
+        "  crescente edit part.step edits.jsonl -o edited.json");
     return {parser, [options](const Invocation& invocation) { return edit(*options, invocation); }};
 }
 

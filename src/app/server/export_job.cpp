@@ -11,31 +11,16 @@
 #include "io/image_file.h"
 #include "io/scene_file.h"
 #include "render/session.h"
-#include "scene/hierarchy.h"
 
 namespace crescente::app {
-namespace {
-
-// A CAD part is known by its file alone.
-Expected<void> check_writable(const scene::Scene& scene, const std::filesystem::path& file) {
-    bool exact = false;
-    scene::for_each_appearance(scene, [&](std::uint32_t node, const math::Affine&, const std::vector<scene::MaterialId>&) {
-        exact |= std::holds_alternative<geometry::Brep>(scene.shapes[scene.nodes[node].shape.value].shape);
-    });
-    if (!exact) return {};
-    return failure(ErrorKind::unsupported, {file.filename().string(), "", "the exact parts of CAD files cannot be written to JSON", "export pictures, or keep the CAD file and its edits"});
-}
-
-}  // namespace
-
 int background_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 4); }
 
-ExportJob::ExportJob(std::uint32_t number, scene::Scene scene, std::filesystem::path file) : number_(number), file_(std::move(file)) {
-    thread_ = std::thread([this, made = std::move(scene)]() mutable {
+ExportJob::ExportJob(std::uint32_t number, scene::Scene scene, io::ShapeSources sources, std::filesystem::path file) : number_(number), file_(std::move(file)) {
+    thread_ = std::thread([this, made = std::move(scene), from = std::move(sources)]() mutable {
         constexpr int patient = 10;
         setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), patient);  // of this thread alone, as Linux has it; if that fails it is merely less polite
         try {
-            result_ = run(std::move(made));
+            result_ = run(std::move(made), from);
         } catch (const std::bad_alloc&) {
             result_ = failure(ErrorKind::resource, {file_.filename().string(), "", "not enough memory", "try a smaller picture"});
         }
@@ -48,11 +33,8 @@ ExportJob::~ExportJob() {
     thread_.join();
 }
 
-Expected<void> ExportJob::run(scene::Scene scene) {
-    if (file_.extension() == ".json") {
-        if (const auto writable = check_writable(scene, file_); !writable) return writable;
-        return write_atomically(file_, io::write_scene_text(scene));
-    }
+Expected<void> ExportJob::run(scene::Scene scene, const io::ShapeSources& sources) {
+    if (file_.extension() == ".json") return write_atomically(file_, io::write_scene_text(scene, sources));
     const bool layers = needs_all_layers({file_.string()});
     if (const auto writable = check_alpha({file_.string()}, scene); !writable) return writable;
     if (const auto writable = io::can_write(file_); !writable) return writable;

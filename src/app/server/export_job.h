@@ -7,14 +7,15 @@
 #include <thread>
 
 #include "base/error.h"
-#include "scene/scene.h"
+#include "io/formats.h"
 
 namespace crescente::app {
 
 class ExportJob {
 public:
     // Begins at once, in few threads of low priority. `file`: where it goes; its extension says the format, ".json" the scene itself. The settings of the scene say size and level.
-    ExportJob(std::uint32_t number, scene::Scene scene, std::filesystem::path file);
+    // `sources` are those of the scene's exact shapes.
+    ExportJob(std::uint32_t number, scene::Scene scene, io::ShapeSources sources, std::filesystem::path file);
     ~ExportJob();  // gives it up, if it is not done
     ExportJob(const ExportJob&) = delete;
     ExportJob& operator=(const ExportJob&) = delete;
@@ -27,7 +28,7 @@ public:
     const Expected<void>& result() const { return result_; }
 
 private:
-    Expected<void> run(scene::Scene scene);
+    Expected<void> run(scene::Scene scene, const io::ShapeSources& sources);
 
     std::uint32_t number_;
     std::filesystem::path file_;

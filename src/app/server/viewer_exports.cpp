@@ -41,7 +41,7 @@ void Viewer::Work::begin_export(const Message& message, Export wanted) {
     if (number > most_kept) std::filesystem::remove_all(settings_.exports / std::to_string(number - most_kept), error);
     const auto folder = settings_.exports / std::to_string(number);
     std::filesystem::create_directories(folder, error);
-    exports_.push_back({std::make_unique<ExportJob>(number, std::move(scene), folder / exported_name(file_, wanted.format)), message.id, -1});
+    exports_.push_back({std::make_unique<ExportJob>(number, std::move(scene), sources_, folder / exported_name(file_, wanted.format)), message.id, -1});
     next_exports_ = Clock::now();
 }
 

@@ -123,6 +123,7 @@ void Viewer::Work::open(const std::string& name, const MessageId& id) {
     file_ = found->string();
     title_ = name;
     warnings_ = std::move(loaded->warnings);
+    note_sources(std::move(loaded->sources));
     look_.reset();
     fresh_rays_.reset();
     progress_ = {};
@@ -137,6 +138,15 @@ void Viewer::Work::open(const std::string& name, const MessageId& id) {
     whole_first_ = unshown_ = progress_untold_ = true;
     next_frame_ = Clock::now();
     if (id) say_.text(reply("opened", {{"file", name}}, id));
+}
+
+// An upload is gone with its session: the user, who has the file, puts a saved scene beside it.
+void Viewer::Work::note_sources(io::ShapeSources sources) {
+    for (auto& [shape, source] : sources) {
+        const auto below = source.file.lexically_relative(std::filesystem::weakly_canonical(settings_.uploads));
+        if (!below.empty() && *below.begin() != "..") source.file = below;
+    }
+    sources_ = std::move(sources);
 }
 
 void Viewer::Work::list_files(const MessageId& id, const std::optional<std::string>& folder) {

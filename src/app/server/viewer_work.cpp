@@ -57,9 +57,10 @@ void Viewer::Work::serve(Orders orders) {
     for (Message& message : orders.messages) carry_out(std::move(message));
     take_view();
     take_look();
-    tell_scene();
+    if (opened_) tell_scene();
     grow();
     show();
+    tell_scene();  // after the pixels, which the eye waits for
     tell_progress();
     tell_exports();
 }

@@ -54,6 +54,7 @@ private:
     void keep_view();
     void after_edit(const render::EditReport& report, const SceneParts& parts);
     void open(const std::string& file, const MessageId& id);
+    void note_sources(io::ShapeSources sources);
     void list_files(const MessageId& id, const std::optional<std::string>& folder);
     bool needs_session(const MessageId& id);
     void lose_scene(const Error& error);
@@ -68,6 +69,7 @@ private:
     std::string file_;          // that is open, as a path
     std::string title_;         // as the page knows it
     Problems warnings_;         // of reading it
+    io::ShapeSources sources_;  // of its exact shapes; uploads by their names alone
     std::optional<Error> lost_; // why nothing is open, although something was, or was to be
     std::uint64_t revision_ = 0;
 

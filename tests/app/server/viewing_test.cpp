@@ -160,6 +160,33 @@ TEST_F(Viewing, ExportsAreThePicturesOfTheCommandLine) {
     EXPECT_TRUE(wide.contains("error")) << wide;
 }
 
+// The scene names the model for its exact parts, and has all that was done to them.
+TEST_F(Viewing, ACadModelIsSavedAsASceneThatRendersAlike) {
+    if (!fs::exists(fs::path(CRESCENTE_PROGRAM).parent_path() / "../lib/crescente_opencascade.so")) GTEST_SKIP() << "this build is without OpenCASCADE";
+    Server server({(scenes / "as1-oc-214.stp").string()});
+    Client client(server);
+    set_size(client);
+    client.wait_converged(has_size);
+    const Pixels before = client.picture();
+    for (const Json& edit : std::vector<Json>{{{"material", {{"name", "brass"}, {"library", "brass polished"}}}},
+                                              {{"assign", {{"object", "plate_1"}, {"material", "brass"}, {"below", true}}}},
+                                              {{"move", {{"object", "rod-assembly_1"}, {"by", {{{"rotate", {{"axis", "y"}, {"angle", 25}}}}, {{"translate", {3.7, 12.1, 0}}}}}}}},
+                                              {{"remove", "l-bracket-assembly_1"}},
+                                              {{"duplicate", {{"object", "plate_1"}, {"name", "second"}, {"by", {{"translate", {0, 77.7, 0}}}}}}},
+                                              {{"ground", "none"}}}) {
+        const Json answer = client.request(edit);
+        ASSERT_TRUE(answer.contains("edited")) << answer;
+    }
+    client.send({{"look", {{"position", {0.3, 250, 400}}, {"target", {10, 20, 0}}}}});
+    const Json picture = client.request({{"export", {{"format", "png"}, {"width", 123}, {"height", 77}, {"level", "edges"}}}});
+    const Json scene = client.request({{"export", {{"format", "json"}}}});
+    ASSERT_TRUE(scene.contains("exported")) << scene;
+    const auto download = [&](const Json& exported) { return ask(server, "/" + exported["exported"]["address"].get<std::string>()).body; };
+    const Pixels exported = read_png(download(picture));
+    EXPECT_NE(exported, before);
+    EXPECT_EQ(exported, rendered(write("exported.json", download(scene)), {"--size", "123x77", "--level", "edges"}));
+}
+
 TEST_F(Viewing, AReloadedPageTakesItsSessionUp) {
     Server server({primitives});
     std::string key;

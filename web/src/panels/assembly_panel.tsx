@@ -2,10 +2,10 @@
 import { ActionIcon, Menu, Text, TextInput } from '@mantine/core';
 import { IconChevronDown, IconChevronRight, IconCopy, IconDots, IconEye, IconEyeOff, IconFocus2, IconPalette, IconSearch, IconSquareDashed, IconTrash } from '@tabler/icons-react';
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from 'react';
+import { memo, useEffect, useMemo, useRef, useState, type KeyboardEvent } from 'react';
 import { duplicateSelection, removeSelection } from '../state/edits';
 import { hover, select, toggleExpanded, toggleIsolated, toggleVisible } from '../state/selection';
-import { set, useStore } from '../state/store';
+import { get, set, useStore } from '../state/store';
 import { nameOf, parentOf, rowsOf, type Row } from '../state/tree';
 import { theStage } from '../view/current_stage';
 import { PanelHeader } from './panel_header';
@@ -13,15 +13,15 @@ import { PanelHeader } from './panel_header';
 const rowHeight = 30;
 
 export function AssemblyPanel() {
-  const scene = useStore((s) => s.scene);
+  const objects = useStore((s) => s.scene?.objects);
+  const roots = useStore((s) => s.scene?.roots);
   const expanded = useStore((s) => s.expanded);
   const selection = useStore((s) => s.selection);
-  const hovered = useStore((s) => s.hovered);
   const isolated = useStore((s) => s.isolated !== null);
   const [search, setSearch] = useState('');
   const [active, setActive] = useState<string | null>(null);
   const parent = useRef<HTMLDivElement>(null);
-  const rows = useMemo(() => (scene ? rowsOf(scene, expanded, search) : []), [scene, expanded, search]);
+  const rows = useMemo(() => (objects && roots ? rowsOf({ objects, roots }, expanded, search) : []), [objects, roots, expanded, search]);
   const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => parent.current, estimateSize: () => rowHeight, overscan: 8 });
 
   // What was selected in the picture comes into sight.
@@ -62,7 +62,7 @@ export function AssemblyPanel() {
   return (
     <section className="panel side side-left" aria-label="Assembly" data-testid="assembly">
       <PanelHeader title="Assembly" close={() => set({ leftOpen: false })}>
-        <Text size="xs" c="dimmed">{scene?.objects.length ?? 0}</Text>
+        <Text size="xs" c="dimmed">{objects?.length ?? 0}</Text>
       </PanelHeader>
       <TextInput m={8} mb={4} placeholder="Search" aria-label="Search parts" value={search} onChange={(event) => setSearch(event.currentTarget.value)} leftSection={<IconSearch size={14} />} />
       {isolated && (
@@ -85,7 +85,7 @@ export function AssemblyPanel() {
         <div style={{ height: virtual.getTotalSize(), position: 'relative' }}>
           {virtual.getVirtualItems().map((item) => (
             <div key={rows[item.index].path} style={{ position: 'absolute', top: item.start, left: 0, right: 0 }}>
-              <TreeRow row={rows[item.index]} selected={selection.includes(rows[item.index].path)} hovered={hovered === rows[item.index].path} />
+              <TreeRow {...rows[item.index]} />
             </div>
           ))}
         </div>
@@ -95,14 +95,12 @@ export function AssemblyPanel() {
   );
 }
 
-function TreeRow({ row, selected, hovered }: { row: Row; selected: boolean; hovered: boolean }) {
-  const { path, object, depth, hidden, open } = row;
+// Drawn anew only where something of it has changed: rows are told by values, and parts that are as they were are the same objects.
+const TreeRow = memo(function TreeRow({ path, object, depth, hidden, open }: Row) {
+  const selected = useStore((s) => s.selection.includes(path));
+  const hovered = useStore((s) => s.hovered === path);
   const name = nameOf(object);
   const Chevron = open ? IconChevronDown : IconChevronRight;
-  const chosen = (then: () => void) => () => {
-    if (!selected) select(path);
-    then();
-  };
   return (
     <div
       className="row"
@@ -127,24 +125,38 @@ function TreeRow({ row, selected, hovered }: { row: Row; selected: boolean; hove
         <span style={{ width: 20 }} />
       )}
       <span className="name">{name}</span>
-      <Menu position="bottom-end" withinPortal>
-        <Menu.Target>
-          <ActionIcon className="act" size={22} tabIndex={-1} aria-label={`More for ${name}`} onClick={(event) => event.stopPropagation()}>
-            <IconDots size={14} />
-          </ActionIcon>
-        </Menu.Target>
-        <Menu.Dropdown onClick={(event) => event.stopPropagation()}>
-          <Menu.Item leftSection={<IconFocus2 size={15} />} onClick={chosen(() => theStage()?.fit())}>Fit</Menu.Item>
-          <Menu.Item leftSection={<IconSquareDashed size={15} />} onClick={chosen(() => void toggleIsolated())}>Isolate</Menu.Item>
-          <Menu.Item leftSection={<IconPalette size={15} />} onClick={chosen(() => set({ rightOpen: true, rightTab: 'material' }))}>Material</Menu.Item>
-          <Menu.Item leftSection={<IconCopy size={15} />} onClick={chosen(() => void duplicateSelection())}>Duplicate</Menu.Item>
-          <Menu.Divider />
-          <Menu.Item color="red" leftSection={<IconTrash size={15} />} onClick={chosen(() => void removeSelection())}>Delete</Menu.Item>
-        </Menu.Dropdown>
-      </Menu>
+      <RowMenu path={path} name={name} />
       <ActionIcon className="act" size={22} tabIndex={-1} data-on={!object.visible} aria-label={object.visible ? `Hide ${name}` : `Show ${name}`} onClick={(event) => (event.stopPropagation(), toggleVisible(object.index))}>
         {object.visible ? <IconEye size={15} /> : <IconEyeOff size={15} />}
       </ActionIcon>
     </div>
+  );
+});
+
+// The menu itself is made when it is first asked for: there are many rows.
+function RowMenu({ path, name }: { path: string; name: string }) {
+  const [made, setMade] = useState(false);
+  const button = (
+    <ActionIcon className="act" size={22} tabIndex={-1} aria-label={`More for ${name}`} onClick={(event) => (event.stopPropagation(), setMade(true))}>
+      <IconDots size={14} />
+    </ActionIcon>
+  );
+  if (!made) return button;
+  const chosen = (then: () => void) => () => {
+    if (!get().selection.includes(path)) select(path);
+    then();
+  };
+  return (
+    <Menu position="bottom-end" withinPortal defaultOpened>
+      <Menu.Target>{button}</Menu.Target>
+      <Menu.Dropdown onClick={(event) => event.stopPropagation()}>
+        <Menu.Item leftSection={<IconFocus2 size={15} />} onClick={chosen(() => theStage()?.fit())}>Fit</Menu.Item>
+        <Menu.Item leftSection={<IconSquareDashed size={15} />} onClick={chosen(() => void toggleIsolated())}>Isolate</Menu.Item>
+        <Menu.Item leftSection={<IconPalette size={15} />} onClick={chosen(() => set({ rightOpen: true, rightTab: 'material' }))}>Material</Menu.Item>
+        <Menu.Item leftSection={<IconCopy size={15} />} onClick={chosen(() => void duplicateSelection())}>Duplicate</Menu.Item>
+        <Menu.Divider />
+        <Menu.Item color="red" leftSection={<IconTrash size={15} />} onClick={chosen(() => void removeSelection())}>Delete</Menu.Item>
+      </Menu.Dropdown>
+    </Menu>
   );
 }

@@ -6,7 +6,7 @@ export function Banner() {
   const lost = useStore((s) => s.connection === 'lost');
   if (!lost) return null;
   return (
-    <Alert className="banner" role="alert" color="orange" variant="filled" icon={<Loader size="xs" color="white" />} title="The connection to the program was lost" data-testid="lost">
+    <Alert className="banner" role="alert" color="orange.4" variant="filled" autoContrast icon={<Loader size="xs" color="dark" />} title="The connection to the program was lost" data-testid="lost">
       The page tries again by itself. If the program was ended, start it again and open the address that it prints.
     </Alert>
   );

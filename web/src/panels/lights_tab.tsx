@@ -1,6 +1,7 @@
 // Lights: the list, new ones, and the fields of the one that is chosen.
 import { ActionIcon, Button, Menu, Text } from '@mantine/core';
 import { IconPlus, IconTrash } from '@tabler/icons-react';
+import { memo } from 'react';
 import { hexOf, linearOf } from '../color';
 import { short } from '../format';
 import { labelOf, lightFields } from '../protocol/fields';
@@ -25,16 +26,17 @@ const groups: FieldGroup[] = [
 ];
 
 export function LightsTab() {
-  const scene = useStore((s) => s.scene);
+  const lights = useStore((s) => s.scene?.lights);
+  const lengthUnit = useStore((s) => s.scene?.unit ?? '');
   const chosen = useStore((s) => s.light);
-  if (!scene) return null;
-  const light = chosen !== null ? scene.lights[chosen] : undefined;
+  if (!lights) return null;
+  const light = chosen !== null ? lights[chosen] : undefined;
   return (
     <div className="scroll">
       <section className="section">
-        {scene.lights.length === 0 && <Text size="sm" c="dimmed" mb="xs">No lights: the environment alone shines.</Text>}
-        <div role="listbox" aria-label="Lights" data-testid="lights">
-          {scene.lights.map((one, index) => (
+        {lights.length === 0 && <Text size="sm" c="dimmed" mb="xs">No lights: the environment alone shines.</Text>}
+        <div role="list" aria-label="Lights" data-testid="lights">
+          {lights.map((one, index) => (
             <LightRow key={index} light={one} index={index} chosen={index === chosen} />
           ))}
         </div>
@@ -51,8 +53,8 @@ export function LightsTab() {
       </section>
       {light && chosen !== null && (
         <section className="section">
-          <Text size="xs" c="dimmed" mb="xs">Drag the arrows in the picture to move it, with the rotate tool (R) to aim it.</Text>
-          <LightEditor key={chosen} light={light} index={chosen} lengthUnit={scene.unit} />
+          <Text size="xs" c="dimmed" mb="xs">Drag the arrows in the picture to move it, with the rotate tool (R) to aim it; the small squares set its cone or its size.</Text>
+          <LightEditor key={chosen} light={light} index={chosen} lengthUnit={lengthUnit} />
         </section>
       )}
     </div>
@@ -68,25 +70,31 @@ async function add(kind: string): Promise<void> {
   if (await edit({ light }, 'Add light')) set({ light: index, selection: [] });
 }
 
-function LightRow({ light, index, chosen }: { light: Named; index: number; chosen: boolean }) {
+const LightRow = memo(function LightRow({ light, index, chosen }: { light: Named; index: number; chosen: boolean }) {
   const color = linearOf(light.color ?? 1);
   const most = Math.max(...color, 1e-9);
   const choose = () => set({ light: index, selection: [] });
   return (
-    <div className="row" role="option" aria-selected={chosen} tabIndex={0} onClick={choose} onKeyDown={(event) => event.key === 'Enter' && choose()}>
-      <span style={{ width: 12, height: 12, borderRadius: '50%', marginInline: 4, background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
-      <span className="name">{light.name || `Light ${index + 1}`}</span>
-      <Text size="xs" c="dimmed">{labelOf(String(light.kind ?? 'point'))} · {short(Number(light.intensity ?? 1), 3)}</Text>
-      <ActionIcon className="act" size={22} aria-label={`Delete light ${light.name || index + 1}`} onClick={(event) => (event.stopPropagation(), choose(), void removeSelection())}>
+    <div className="row" role="listitem" data-chosen={chosen}>
+      <button type="button" className="choose" aria-pressed={chosen} onClick={choose}>
+        <span style={{ width: 12, height: 12, borderRadius: '50%', marginInline: 4, background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
+        <span className="name">{light.name || `Light ${index + 1}`}</span>
+        <Text size="xs" c="dimmed">{labelOf(String(light.kind ?? 'point'))} · {short(Number(light.intensity ?? 1), 3)}</Text>
+      </button>
+      <ActionIcon className="act" size={22} aria-label={`Delete light ${light.name || index + 1}`} onClick={() => (choose(), void removeSelection())}>
         <IconTrash size={14} />
       </ActionIcon>
     </div>
   );
-}
+});
+
+// The unit of brightness is that of the kind.
+const fieldsWith = (unit: string) => lightFields.map((field) => (field.name === 'intensity' ? { ...field, unit } : field));
+const fieldsOfSun = fieldsWith('lx');
+const fieldsOfLamp = fieldsWith('cd');
 
 function LightEditor({ light, index, lengthUnit }: { light: Named; index: number; lengthUnit: string }) {
   const onChange = useDrag((field, value) => setLightField(index, field, value), (field) => `${light.name || 'Light'}: ${field.replaceAll('_', ' ')}`);
-  // The unit of its brightness is that of its kind.
-  const fields = lightFields.map((field) => (field.name === 'intensity' ? { ...field, unit: light.kind === 'directional' ? 'lx' : 'cd' } : field));
+  const fields = light.kind === 'directional' ? fieldsOfSun : fieldsOfLamp;
   return <GroupedFields fields={fields} first={firstOf[String(light.kind ?? 'point')] ?? firstOf.point} groups={groups} values={light} lengthUnit={lengthUnit} onChange={onChange} />;
 }

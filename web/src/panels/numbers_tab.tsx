@@ -19,7 +19,9 @@ export function NumbersTab() {
   const lastEdit = useStore((s) => s.lastEdit);
   const layer = useStore((s) => s.layer);
   const layers = useStore((s) => s.welcome?.layers) ?? [];
-  const { pixel, replayed, replaying } = useStore();
+  const pixel = useStore((s) => s.pixel);
+  const replayed = useStore((s) => s.replayed);
+  const replaying = useStore((s) => s.replaying);
   const showLayer = (next: string) => {
     if (send({ layer: next })) set({ layer: next });
   };

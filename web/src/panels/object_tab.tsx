@@ -7,13 +7,14 @@ import { short } from '../format';
 import { duplicateSelection, edit, removeSelection } from '../state/edits';
 import { placementOf, movedTo, turnedTo } from '../state/placement';
 import { hideSelection, toggleIsolated } from '../state/selection';
+import { useShallow } from 'zustand/react/shallow';
 import { useStore } from '../state/store';
 import { leafOf, nameOf, objectAt, rowsOfMatrix, worldBox } from '../state/tree';
 import { theStage } from '../view/current_stage';
 import { VectorBoxes } from './fields/vector_field';
 
 export function ObjectTab() {
-  const scene = useStore((s) => s.scene);
+  const scene = useStore(useShallow((s) => s.scene && { objects: s.scene.objects, unit: s.scene.unit }));
   const selection = useStore((s) => s.selection);
   const path = selection.at(-1);
   const object = scene && path !== undefined ? objectAt(scene, leafOf(path)) : undefined;
@@ -49,7 +50,7 @@ export function ObjectTab() {
   );
 }
 
-function describe(scene: Scene, path: string): string {
+function describe(scene: Pick<Scene, 'objects' | 'unit'>, path: string): string {
   const object = objectAt(scene, leafOf(path));
   const box = worldBox(scene, path);
   const parts = [

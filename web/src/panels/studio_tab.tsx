@@ -4,6 +4,7 @@ import { IconUpload } from '@tabler/icons-react';
 import { environmentFields, labelOf, settingsFields } from '../protocol/fields';
 import { edit, setEnvironmentField, setSetting } from '../state/edits';
 import { chooseEnvironment, uploadEnvironment } from '../state/files';
+import { useShallow } from 'zustand/react/shallow';
 import { useStore } from '../state/store';
 import { FieldList } from './fields/field_list';
 import { GroupedFields } from './fields/grouped_fields';
@@ -13,7 +14,7 @@ import { PanelHeader } from './panel_header';
 const pick = (fields: typeof environmentFields, names: string[]) => names.map((name) => fields.find((field) => field.name === name)).filter((field) => field !== undefined);
 
 export function StudioTab() {
-  const scene = useStore((s) => s.scene);
+  const scene = useStore(useShallow((s) => s.scene && { environment: s.scene.environment, settings: s.scene.settings, studio: s.scene.studio, ground: s.scene.ground, unit: s.scene.unit }));
   const studios = useStore((s) => s.welcome?.studios) ?? [];
   const environments = useStore((s) => s.files?.environments) ?? [];
   const changeEnvironment = useDrag(setEnvironmentField, (field) => `Environment: ${field.replaceAll('_', ' ')}`);
@@ -47,7 +48,7 @@ export function StudioTab() {
           allowDeselect={false}
           onChange={(file) => void chooseEnvironment(file || null)}
         />
-        <FileButton accept=".hdr,.exr" onChange={(file) => file && void uploadEnvironment(file)}>
+        <FileButton accept=".hdr,.exr" inputProps={{ 'aria-label': 'Picture of surroundings' }} onChange={(file) => file && void uploadEnvironment(file)}>
           {(props) => <Button {...props} variant="default" size="xs" leftSection={<IconUpload size={14} />}>Picture of surroundings (.hdr, .exr)</Button>}
         </FileButton>
         {hasImage && <FieldList fields={pick(environmentFields, ['rotation', 'intensity'])} values={environment} lengthUnit={scene.unit} onChange={changeEnvironment} />}

@@ -1,6 +1,7 @@
 // The bar above: files, undo, tools, views.
 import { Button, Divider, Menu, Text, useComputedColorScheme, useMantineColorScheme } from '@mantine/core';
 import { IconArrowBackUp, IconArrowForwardUp, IconArrowsMove, IconBinaryTree2, IconCamera, IconChevronDown, IconClipboard, IconCube, IconDeviceFloppy, IconFolderOpen, IconHelp, IconLayoutSidebarRight, IconMagnet, IconMaximize, IconMoon, IconPerspective, IconPhotoDown, IconPointer, IconRotate360, IconRotateClockwise, IconSun } from '@tabler/icons-react';
+import { useShallow } from 'zustand/react/shallow';
 import { redo, undo } from '../state/edits';
 import { copyPicture } from '../state/copy_picture';
 import { startExport } from '../state/exports';
@@ -16,7 +17,7 @@ export function TopBar() {
   const name = useStore((s) => (s.scene ? titleOf(s.scene) : ''));
   const canUndo = useStore((s) => Boolean(s.scene?.can_undo));
   const canRedo = useStore((s) => Boolean(s.scene?.can_redo));
-  const { tool, snap, orthographic, turntable, leftOpen, rightOpen } = useStore();
+  const { tool, snap, orthographic, turntable, leftOpen, rightOpen } = useStore(useShallow(({ tool, snap, orthographic, turntable, leftOpen, rightOpen }) => ({ tool, snap, orthographic, turntable, leftOpen, rightOpen })));
   const toolButton = (own: Tool) => ({ active: tool === own, onClick: () => set({ tool: own }) });
   return (
     <header className="panel bar" role="toolbar" aria-label="Tools">

@@ -2,7 +2,7 @@
 // have the form of scene files (docs/scene_format.md) are records, whose fields the page reads from their tables (fields.ts).
 import type * as replies from './generated/replies';
 
-export type { Bounds, Edited, Exported, Failure, FileEntry, Files, Incoming, LibraryMaterial, Picked, Progress, Replayed, SceneObject, Tree, Welcome } from './generated/replies';
+export type { Bounds, Exported, Failure, FileEntry, Files, Incoming, LibraryMaterial, Picked, Progress, Replayed, SceneObject, Tree, Welcome } from './generated/replies';
 
 export type Vector = [number, number, number];
 export type Values = Record<string, unknown>;

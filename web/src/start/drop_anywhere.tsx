@@ -6,7 +6,7 @@ import { receiveFiles } from '../state/files';
 
 export function DropAnywhere() {
   return (
-    <Dropzone.FullScreen onDrop={(files) => void receiveFiles(files)} aria-label="Drop a model to open it">
+    <Dropzone.FullScreen onDrop={(files) => void receiveFiles(files)} aria-label="Drop a model to open it" inputProps={{ 'aria-label': 'Model to open' }}>
       <Group justify="center" mih="80vh" gap="md" style={{ pointerEvents: 'none' }}>
         <IconFileImport size={48} stroke={1.3} />
         <div>

@@ -17,7 +17,7 @@ export function FileChoices() {
   return (
     <Stack gap="lg">
       {failure && (
-        <Alert color="red" variant="light" icon={<IconAlertTriangle />} title={`${failure.file} could not be opened`} role="alert" data-testid="open-failure">
+        <Alert color="red" variant="light" icon={<IconAlertTriangle />} title={<Text span inherit c="var(--mantine-color-text)">{failure.file} could not be opened</Text>} role="alert" data-testid="open-failure">
           {failure.failure.problems.map((problem, i) => (
             <Text key={i} size="sm">{[problem.place, problem.reason, problem.hint].filter(Boolean).join(' – ')}</Text>
           ))}
@@ -28,7 +28,7 @@ export function FileChoices() {
           <Text fw={600}>Drop a model here</Text>
           <Text size="sm" c="dimmed">STEP, IGES, BREP, glTF, STL, OBJ, PLY, scenes{limit ? ` · up to ${bytes(limit)}` : ''}</Text>
         </div>
-        <FileButton onChange={(list) => void receiveFiles(list)} multiple>
+        <FileButton onChange={(list) => void receiveFiles(list)} multiple inputProps={{ 'aria-label': 'Model to open' }}>
           {(props) => <Button {...props} leftSection={<IconUpload size={16} />}>Choose a file</Button>}
         </FileButton>
       </Group>

@@ -2,6 +2,7 @@
 import { Connection, ConnectionLost, Refused } from '../protocol/socket';
 import type { Incoming, Outgoing, Scene } from '../protocol/messages';
 import { complain, mention } from './notices';
+import { shared } from './share';
 import { get, set } from './store';
 
 type FrameSink = (data: ArrayBuffer) => void;
@@ -52,8 +53,8 @@ function receive(message: Incoming): void {
   if (message.scene) receiveScene(message.scene);
   if (message.edited) {
     const { can_undo, can_redo } = message.edited;
-    const scene = get().scene;
-    set({ edited: message.edited, scene: scene && { ...scene, can_undo, can_redo } });
+    const { scene } = get();
+    if (scene) set({ scene: shared(scene, { ...scene, can_undo, can_redo }) });
   }
   if (message.progress) set({ progress: message.progress });
   if (message.error && message.id === undefined) {
@@ -68,7 +69,7 @@ function receiveScene({ opened, warnings, ...members }: NonNullable<Incoming['sc
   const { scene: old, opening } = get();
   for (const warning of warnings ?? []) mention(warning);
   if (old && !opened) {
-    set({ scene: { ...old, ...members } as Scene });
+    set({ scene: shared(old, { ...old, ...members } as Scene) });
     return;
   }
   const again = old !== null && opening === null && old.file === members.file;

@@ -1,7 +1,7 @@
 // What the page knows: what the program has told, and what the user has chosen here. One store; who changes what is in the other files of this folder.
 import { create } from 'zustand';
 import type { ConnectionState } from '../protocol/socket';
-import type { Edited, Failure, Files, Progress, Replayed, Scene, Vector, Welcome } from '../protocol/messages';
+import type { Failure, Files, Progress, Replayed, Scene, Vector, Welcome } from '../protocol/messages';
 
 export type Tool = 'select' | 'move' | 'rotate';
 export type RightTab = 'material' | 'object' | 'lights' | 'studio' | 'cameras' | 'numbers';
@@ -17,7 +17,6 @@ export type Store = {
   openFailure: { file: string; failure: Failure } | null;
   scene: Scene | null;
   progress: Progress | null;
-  edited: Edited | null;
   lastEdit: string | null;
   exports: ExportItem[];
 
@@ -52,7 +51,6 @@ export const useStore = create<Store>()(() => ({
   openFailure: null,
   scene: null,
   progress: null,
-  edited: null,
   lastEdit: null,
   exports: [],
   selection: [],

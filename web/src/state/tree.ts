@@ -10,7 +10,10 @@ export const inside = (path: string, above: string) => path === above || path.st
 
 const byIndex = new WeakMap<SceneObject[], Map<number, SceneObject>>();
 
-export function objectAt(scene: Scene, index: number): SceneObject | undefined {
+// What the assembly is made of.
+export type Assembly = Pick<Scene, 'objects' | 'roots'>;
+
+export function objectAt(scene: Pick<Scene, 'objects'>, index: number): SceneObject | undefined {
   let map = byIndex.get(scene.objects);
   if (!map) {
     map = new Map(scene.objects.map((object) => [object.index, object]));
@@ -24,7 +27,7 @@ export const nameOf = (object: SceneObject | undefined) => object?.name || `${ob
 export type Row = { path: string; object: SceneObject; depth: number; hidden: boolean; open: boolean };
 
 // The rows that the tree shows: below what is expanded, or, with a search, what has the words in its name and what leads there.
-export function rowsOf(scene: Scene, expanded: ReadonlySet<string>, search: string): Row[] {
+export function rowsOf(scene: Assembly, expanded: ReadonlySet<string>, search: string): Row[] {
   const words = search.trim().toLowerCase();
   const rows: Row[] = [];
   const found = new Map<number, boolean>();
@@ -61,7 +64,7 @@ export function rowsOfMatrix(matrix: Matrix4): number[] {
 }
 
 // From the object's space to the scene's.
-export function worldOf(scene: Scene, path: string): Matrix4 {
+export function worldOf(scene: Pick<Scene, 'objects'>, path: string): Matrix4 {
   const world = new Matrix4();
   for (const index of indicesOf(path)) {
     const object = objectAt(scene, index);
@@ -73,13 +76,13 @@ export function worldOf(scene: Scene, path: string): Matrix4 {
 export const boxOf = (bounds: Bounds) => new Box3(new Vector3(...bounds.low), new Vector3(...bounds.high));
 
 // The box in the scene's axes around what the path leads to; null if nothing is there.
-export function worldBox(scene: Scene, path: string): Box3 | null {
+export function worldBox(scene: Pick<Scene, 'objects'>, path: string): Box3 | null {
   const bounds = objectAt(scene, leafOf(path))?.bounds;
   return bounds ? boxOf(bounds).applyMatrix4(worldOf(scene, path)) : null;
 }
 
 // The material that the object shows: its own, or the nearest above.
-export function materialOf(scene: Scene, path: string): number | null {
+export function materialOf(scene: Pick<Scene, 'objects'>, path: string): number | null {
   for (const index of indicesOf(path).reverse()) {
     const material = objectAt(scene, index)?.material;
     if (material !== null && material !== undefined) return material;

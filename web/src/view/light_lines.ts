@@ -12,14 +12,19 @@ export const poseOfLight = (light: Values): LightPose => ({
   up: new Vector3(...((light.up as Vector | undefined) ?? [0, 1, 0])).normalize(),
 });
 
-// Pairs of points; reach: how far rays are drawn.
-export function lightLines(light: Values, reach: number): number[] {
-  const { position, direction, up } = poseOfLight(light);
-  const right = direction.clone().cross(up);
-  if (right.lengthSq() < 1e-12) right.crossVectors(direction, new Vector3(1, 0, 0));
+// With the directions in which its width and its height run.
+export function axesOfLight(light: Values): LightPose & { right: Vector3; above: Vector3 } {
+  const pose = poseOfLight(light);
+  const right = pose.direction.clone().cross(pose.up);
+  if (right.lengthSq() < 1e-12) right.crossVectors(pose.direction, new Vector3(1, 0, 0));
   if (right.lengthSq() < 1e-12) right.set(0, 0, 1);
   right.normalize();
-  const above = right.clone().cross(direction);
+  return { ...pose, right, above: right.clone().cross(pose.direction) };
+}
+
+// Pairs of points; reach: how far rays are drawn.
+export function lightLines(light: Values, reach: number): number[] {
+  const { position, direction, right, above } = axesOfLight(light);
   const points: number[] = [];
   const line = (a: Vector3, b: Vector3) => points.push(...a.toArray(), ...b.toArray());
   const circle = (center: Vector3, u: Vector3, v: Vector3, radius: number) => {
@@ -45,6 +50,8 @@ export function lightLines(light: Values, reach: number): number[] {
     const radius = reach * Math.tan(MathUtils.degToRad(outer));
     const end = position.clone().addScaledVector(direction, reach);
     circle(end, right, above, radius);
+    const inner = number('inner_angle', 0);
+    if (inner > 0 && inner < outer) circle(end, right, above, reach * Math.tan(MathUtils.degToRad(inner)));
     for (const [u, sign] of [[right, 1], [right, -1], [above, 1], [above, -1]] as const) line(position, end.clone().addScaledVector(u, sign * radius));
   }
   return points;

@@ -10,6 +10,8 @@ export class Overlay {
   readonly scene = new Scene();
   private readonly renderer: WebGLRenderer;
   private clear = false; // whether nothing is drawn
+  private stale = true; // something of it is other than when it was drawn last
+  private readonly drawnBy = new Matrix4(); // view and projection
   private readonly lines = new Map<string, LineSegments<BufferGeometry, LineBasicMaterial>>();
 
   constructor(canvas: HTMLCanvasElement) {
@@ -21,23 +23,36 @@ export class Overlay {
     this.renderer.setPixelRatio(Math.min(ratio, 2));
     this.renderer.setSize(width, height, false);
     this.clear = false;
+    this.stale = true;
+  }
+
+  // What was added looks different.
+  changed(): void {
+    this.stale = true;
   }
 
   add(object: Object3D): void {
     this.scene.add(object);
   }
 
-  // Nothing is done where there is nothing to be seen, as mostly while the view turns.
+  // Nothing is done where there is nothing to be seen, as mostly while the view turns, and where all is as it was, as while the picture grows.
   render(camera: ViewCamera, handles: boolean): void {
     const empty = this.lines.size === 0 && !handles;
     if (empty && this.clear) return;
+    camera.updateMatrixWorld();
+    const by = camera.projectionMatrix.clone().multiply(camera.matrixWorldInverse);
+    if (!this.stale && by.equals(this.drawnBy)) return;
     this.renderer.render(this.scene, camera);
     this.clear = empty;
+    this.stale = false;
+    this.drawnBy.copy(by);
   }
 
   // Lines from pairs of points under a name; those that were there under it go.
   setLines(name: string, points: number[], color: number, opacity: number): void {
     const old = this.lines.get(name);
+    if (!old && points.length === 0) return;
+    this.stale = true;
     if (old) {
       old.geometry.dispose();
       old.material.dispose();

@@ -12,8 +12,12 @@ const clickPixels = 4;
 const wheelPauseMilliseconds = 250;
 export const materialType = 'application/x-crescente-material';
 
+// Marks and handles of lights have the pointer for themselves.
+const onHandle = (event: Event) => event.target instanceof Element && event.target.closest('button, [role=slider]') !== null;
+
 export class Pointer {
   private down: { x: number; y: number; id: number } | null = null;
+  private readonly pressed = new Set<number>(); // pointers: with two fingers on the picture neither clicks
   private hovering = false;
   private nextHover: PointerEvent | null = null;
   private lastWheel = 0;
@@ -25,8 +29,15 @@ export class Pointer {
     on('pointerdown', (event) => this.press(event), true);
     on('pointermove', (event) => this.move(event));
     on('pointerup', (event) => void this.release(event));
-    on('pointerleave', () => hover(null));
-    on('dblclick', () => this.stage.fit());
+    on('pointercancel', (event) => this.lift(event));
+    on('pointerleave', (event) => {
+      this.pressed.delete(event.pointerId);
+      this.stage.attention.turnTo(null);
+      hover(null);
+    });
+    on('dblclick', (event) => {
+      if (!onHandle(event)) this.stage.fit();
+    });
     on('wheel', (event) => void this.wheel(event), true);
     on('dragover', (event) => {
       if (event.dataTransfer?.types.includes(materialType)) event.preventDefault();
@@ -45,9 +56,14 @@ export class Pointer {
   }
 
   private press(event: PointerEvent): void {
-    if (event.target instanceof HTMLButtonElement) return;
+    if (onHandle(event)) return;
     this.element.focus({ preventScroll: true });
     set({ turntable: false });
+    this.pressed.add(event.pointerId);
+    if (this.pressed.size > 1) {
+      this.down = null;
+      return;
+    }
     this.down = { x: event.clientX, y: event.clientY, id: event.pointerId };
     hover(null);
     this.stage.navigation.leftPans(event.shiftKey);
@@ -58,10 +74,15 @@ export class Pointer {
     });
   }
 
-  private async release(event: PointerEvent): Promise<void> {
-    const down = this.down;
+  private lift(event: PointerEvent): void {
+    this.pressed.delete(event.pointerId);
     this.down = null;
-    if (!down || event.button !== 0 || this.stage.busy || this.stage.overHandle || event.target instanceof HTMLButtonElement) return;
+  }
+
+  private async release(event: PointerEvent): Promise<void> {
+    const { down } = this;
+    this.lift(event);
+    if (!down || event.button !== 0 || this.stage.busy || this.stage.overHandle || onHandle(event)) return;
     if (Math.hypot(event.clientX - down.x, event.clientY - down.y) > clickPixels) return;
     const picked = await this.pick(event.clientX, event.clientY);
     if (picked === undefined) return;
@@ -70,6 +91,7 @@ export class Pointer {
   }
 
   private move(event: PointerEvent): void {
+    this.stage.attention.turnTo(this.stage.placeAt(event.clientX, event.clientY));
     if (this.down || event.pointerType === 'touch') return;
     this.nextHover = event;
     void this.askHover();

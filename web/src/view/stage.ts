@@ -3,10 +3,12 @@ import { Box3, Vector3 } from 'three';
 import { get, set, useStore, type Store } from '../state/store';
 import { drawFramesWith, send } from '../state/session';
 import { boxOf, leafOf, objectAt, worldBox, worldOf } from '../state/tree';
+import { Attention } from './attention';
 import { boxLines, Overlay } from './overlay';
 import { wholeCamera, type WholeCamera } from './camera';
 import { Gizmo } from './gizmo';
 import { lightLines } from './light_lines';
+import { LightHandles } from './light_handles';
 import { LightMarks } from './light_marks';
 import { Navigation, type StandardView } from './navigation';
 import { Picture } from './picture';
@@ -19,13 +21,18 @@ import type { Camera, Scene } from '../protocol/messages';
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
 
+// What of the state is drawn over the picture.
+const drawnFrom = ({ scene, selection, hovered, tool, light, snap, rightOpen, rightTab }: Store) => [scene?.objects, scene?.lights, scene?.bounds, selection, hovered, tool, light, snap, rightOpen, rightTab];
+
 export class Stage {
   readonly navigation: Navigation;
   readonly picture: Picture;
+  readonly attention = new Attention(() => window.devicePixelRatio);
   private readonly overlay: Overlay;
   private readonly gizmo: Gizmo;
   private readonly cube: ViewCube;
   private readonly marks: LightMarks;
+  private readonly lightHandles: LightHandles;
   private readonly pointer: Pointer;
   private readonly observer: ResizeObserver;
   private readonly unsubscribe: () => void;
@@ -54,12 +61,16 @@ export class Stage {
     this.gizmo = new Gizmo(new Navigation(document.createElement('div'), () => undefined).camera, element, (dragging) => {
       if (parts.navigation) parts.navigation.controls.enabled = !dragging;
       if (!dragging) this.refresh(get());
-    }, wake);
+    }, () => {
+      this.overlay.changed();
+      this.wake();
+    });
     this.navigation = parts.navigation = new Navigation(element, wake);
     this.overlay.add(this.gizmo.proxy);
     this.overlay.add(this.gizmo.controls.getHelper());
     this.cube = new ViewCube(cubePlace, this.navigation, wake);
     this.marks = new LightMarks(element);
+    this.lightHandles = new LightHandles(element, () => this.navigation.get());
     this.pointer = new Pointer(element, this);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(element);
@@ -76,7 +87,9 @@ export class Stage {
     this.unsubscribe();
     this.observer.disconnect();
     this.pointer.dispose();
+    this.attention.dispose();
     this.marks.dispose();
+    this.lightHandles.dispose();
     this.cube.dispose();
     this.gizmo.dispose();
     this.navigation.dispose();
@@ -90,6 +103,12 @@ export class Stage {
 
   get overHandle(): boolean {
     return this.gizmo.handle !== null;
+  }
+
+  // A place of the page in the view, CSS pixels.
+  placeAt(clientX: number, clientY: number): { x: number; y: number } {
+    const rect = this.element.getBoundingClientRect();
+    return { x: clientX - rect.left, y: clientY - rect.top };
   }
 
   // A place of the page as pixel of the picture; null outside.
@@ -138,6 +157,7 @@ export class Stage {
     this.overlay.render(this.navigation.camera, this.gizmo.controls.object !== undefined);
     this.element.dataset.handle = this.gizmo.handle ?? '';
     this.marks.place(state, this.navigation.camera, this.size);
+    this.lightHandles.place(this.navigation.camera, this.size);
     this.time = moving || turning || state.turntable ? now : 0;
     if (this.time !== 0) this.wake();
   }
@@ -178,6 +198,7 @@ export class Stage {
     this.cameras.clear();
     this.told = null;
     this.picture.forget();
+    this.attention.forget();
     send({ view: this.pixels });
   }
 
@@ -212,8 +233,7 @@ export class Stage {
   private follow(now: Store, before: Store): void {
     if (now.connection === 'open' && before.connection !== 'open') this.takeUp();
     if (now.scene && now.scene.camera !== before.scene?.camera && !this.isTold(now.scene.camera)) this.takeScene(now);
-    else if (now.scene !== before.scene || now.selection !== before.selection || now.hovered !== before.hovered || now.tool !== before.tool || now.light !== before.light || now.snap !== before.snap || now.rightTab !== before.rightTab)
-      this.refresh(now);
+    else if (drawnFrom(now).some((part, i) => part !== drawnFrom(before)[i])) this.refresh(now);
     if (now.turntable && !before.turntable) this.wake();
     if (now.orthographic !== before.orthographic && now.scene) this.navigation.setOrthographic(now.orthographic);
   }
@@ -233,7 +253,9 @@ export class Stage {
     const reach = scene?.bounds ? boxOf(scene.bounds).getSize(new Vector3()).length() / 2 : 1;
     this.overlay.setLines('light', light && light.kind !== 'directional' ? lightLines(light, reach) : [], colors.light, 0.9);
     this.gizmo.show(state, this.navigation.camera);
+    this.overlay.changed();
     this.marks.refresh(state);
+    this.lightHandles.refresh(state);
     this.wake();
   }
 }

@@ -1,6 +1,7 @@
 // Fields of a material, a light, the environment or the settings, each with the control for its kind.
 import { Group, Select, Stack, Switch, TagsInput, TextInput } from '@mantine/core';
 import { linearOf } from '../../color';
+import { memo } from 'react';
 import { labelOf, unitOf, type Field } from '../../protocol/fields';
 import type { Values, Vector } from '../../protocol/messages';
 import { ColorField } from './color_field';
@@ -18,7 +19,7 @@ export function FieldList({ fields, values, lengthUnit, onChange }: { fields: Fi
   );
 }
 
-function FieldControl({ field, value, lengthUnit, onChange }: { field: Field; value: unknown; lengthUnit: string; onChange: Change }) {
+const FieldControl = memo(function FieldControl({ field, value, lengthUnit, onChange }: { field: Field; value: unknown; lengthUnit: string; onChange: Change }) {
   const unit = unitOf(field, lengthUnit);
   const label = labelOf(field.name);
   switch (field.kind) {
@@ -57,4 +58,4 @@ function FieldControl({ field, value, lengthUnit, onChange }: { field: Field; va
         />
       );
   }
-}
+});
