@@ -169,7 +169,7 @@ TEST(Bsdf, LayersOverWhiteLoseLittle) {
                                          finished("metal", one, 1, roughness, [](PhysicalMaterial& m) { m.clearcoat = 1; }),
                                          finished("metal, velvet", one, 1, roughness, [](PhysicalMaterial& m) { m.sheen_color = gray(0.8f); })};
         for (const Named& m : layered) {
-            const double least = m.name.starts_with("film") ? 0.85 : m.name.starts_with("metal") ? 0.9 : 0.96;  // coloured; facets are under the more of both ends
+            const double least = m.name.starts_with("film") ? 0.85 : 0.96;  // coloured
             for (const double view : views) {
                 const double back = furnace(m.lobes, view, false);
                 EXPECT_LE(back, 1.006) << m.name << " " << view;
@@ -236,6 +236,41 @@ TEST(Bsdf, TheLibraryAddsNoLight) {
         for (const double view : {0.01, 0.9, 1.4}) {
             for (int side = 0; side < (m.material.transmission > 0 ? 2 : 1); ++side) EXPECT_LE(furnace(lobes, view, side == 1), 1.006) << m.name << " " << view;
         }
+    }
+}
+
+// KHR_materials_ior: an index of 0 stands for infinite, by which all is reflected, in the color of the reflection.
+TEST(Bsdf, InfiniteIndexReflectsAll) {
+    for (const double roughness : {0.0, 0.3, 0.8}) {
+        const auto of = [&](double specular, Rgb color, double transmission) {
+            return finished("", {0.2f, 0.5f, 0.9f}, 0, roughness, [=](PhysicalMaterial& m) { m.ior = 0, m.specular = specular, m.specular_color = color, m.transmission = transmission; }).lobes;
+        };
+        for (const double view : views) {
+            EXPECT_NEAR(furnace(of(1, one, 0), view, false), 1, 0.02) << roughness << " " << view;
+            EXPECT_NEAR(furnace(of(1, one, 1), view, false), 1, 0.02) << "nothing gets in";
+            EXPECT_LE(furnace(of(0.5, one, 0), view, false), 0.5 + 0.5 * 0.5 + 0.02) << "half of it, and of the rest the color below";
+        }
+        if (roughness == 0) expect_near(child_weights(of(1, {0.9f, 0.3f, 0.1f}, 0), 1, false).reflected, {0.9f, 0.3f, 0.1f}, 1e-5);
+    }
+}
+
+// The library in white: all that a material is but its colours. Metals reflect all, whatever is over them.
+TEST(Bsdf, TheLibraryInWhiteLosesLittle) {
+    for (const scene::LibraryMaterial& m : scene::material_library()) {
+        PhysicalMaterial white = m.material;
+        white.base_color = white.specular_color = one, white.attenuation = {}, white.emissive = {};
+        white.sheen_color = gray(max_component(white.sheen_color)), white.iridescence = 0;  // films are colors
+        if (white.metallic > 0 && !is_black(white.k)) white.eta = {}, white.k = perfect_k;
+        Lobes lobes = compile({m.name, white});
+        if (lobes.grained()) lobes.tangent = {1, 0.3, 0};
+        double least = 1, most = 0;
+        for (const double view : {0.01, 0.6, 1.1, 1.4}) {
+            const double back = furnace(lobes, view, false);
+            least = std::min(least, back), most = std::max(most, back);
+        }
+        EXPECT_LE(most, 1.006) << m.name;
+        EXPECT_GE(least, 0.98) << m.name;
+        if (std::getenv("CRESCENTE_MEASURE")) std::printf("%-28s %.4f to %.4f\n", m.name.c_str(), least, most);
     }
 }
 
