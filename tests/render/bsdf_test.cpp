@@ -1,15 +1,11 @@
 // Scattering of light by materials, and the directions drawn from it: energy, reciprocity, and that the densities are those of the sampler.
 #include "render/bsdf.h"
 
-#include "render/scenes.h"
+#include "render/furnace.h"
 #include "render/thin_film.h"
-#include "scene/material_library.h"
 
 namespace crescente::render::testing {
 namespace {
-
-Vec3 direction(double theta, double phi) { return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}; }
-const Vec3 up{0, 0, 1};
 
 struct Named {
     std::string name;
@@ -100,21 +96,6 @@ std::vector<Named> white() {
 }
 
 const std::vector<double> views{0.01, 0.6, 1.1, 1.4, 1.54};
-
-// Calls with n evenly spread triples of numbers (Kronecker's sequence of the powers of the root of x^4 = x + 1; Roberts 2018).
-void for_each_draw(int n, const std::function<void(std::array<double, 3>)>& draw) {
-    for (int i = 1; i <= n; ++i) draw({std::fmod(i * 0.8191725133961645, 1), std::fmod(i * 0.6710436067037893, 1), std::fmod(i * 0.5497004779019703, 1)});
-}
-
-// What comes back from a furnace where light of strength 1 is everywhere.
-double furnace(const Lobes& lobes, double theta, bool inside) {
-    constexpr int n = 8000;
-    double sum = 0;
-    for_each_draw(n, [&](std::array<double, 3> u) {
-        if (const auto s = sample_scatter(lobes, {up, up, inside}, direction(theta, 0.4), u, true)) sum += (s->value.diffuse.g + s->value.glossy.g) / s->value.pdf;
-    });
-    return sum / n;
-}
 
 TEST(Bsdf, GivesBackNoMoreThanItGets) {
     for (const Named& m : white()) {
@@ -227,50 +208,6 @@ TEST(Bsdf, ClothSendsBackWhatTheSumsSay) {
     for (const double roughness : {0.3, 0.6, 1.0}) {
         const Lobes cloth = finished("", {}, 0, 1, [=](PhysicalMaterial& m) { m.sheen_color = one, m.sheen_roughness = roughness, m.specular = 0; }).lobes;
         for (const double theta : {0.2, 0.9, 1.4}) EXPECT_NEAR(furnace(cloth, theta, false), sheen_reflectance(cloth, std::cos(theta)), 0.01) << roughness << " " << theta;
-    }
-}
-
-TEST(Bsdf, TheLibraryAddsNoLight) {
-    for (const scene::LibraryMaterial& m : scene::material_library()) {
-        const Lobes lobes = compile({m.name, m.material});
-        for (const double view : {0.01, 0.9, 1.4}) {
-            for (int side = 0; side < (m.material.transmission > 0 ? 2 : 1); ++side) EXPECT_LE(furnace(lobes, view, side == 1), 1.006) << m.name << " " << view;
-        }
-    }
-}
-
-// KHR_materials_ior: an index of 0 stands for infinite, by which all is reflected, in the color of the reflection.
-TEST(Bsdf, InfiniteIndexReflectsAll) {
-    for (const double roughness : {0.0, 0.3, 0.8}) {
-        const auto of = [&](double specular, Rgb color, double transmission) {
-            return finished("", {0.2f, 0.5f, 0.9f}, 0, roughness, [=](PhysicalMaterial& m) { m.ior = 0, m.specular = specular, m.specular_color = color, m.transmission = transmission; }).lobes;
-        };
-        for (const double view : views) {
-            EXPECT_NEAR(furnace(of(1, one, 0), view, false), 1, 0.02) << roughness << " " << view;
-            EXPECT_NEAR(furnace(of(1, one, 1), view, false), 1, 0.02) << "nothing gets in";
-            EXPECT_LE(furnace(of(0.5, one, 0), view, false), 0.5 + 0.5 * 0.5 + 0.02) << "half of it, and of the rest the color below";
-        }
-        if (roughness == 0) expect_near(child_weights(of(1, {0.9f, 0.3f, 0.1f}, 0), 1, false).reflected, {0.9f, 0.3f, 0.1f}, 1e-5);
-    }
-}
-
-// The library in white: all that a material is but its colours. Metals reflect all, whatever is over them.
-TEST(Bsdf, TheLibraryInWhiteLosesLittle) {
-    for (const scene::LibraryMaterial& m : scene::material_library()) {
-        PhysicalMaterial white = m.material;
-        white.base_color = white.specular_color = one, white.attenuation = {}, white.emissive = {};
-        white.sheen_color = gray(max_component(white.sheen_color)), white.iridescence = 0;  // films are colors
-        if (white.metallic > 0 && !is_black(white.k)) white.eta = {}, white.k = perfect_k;
-        Lobes lobes = compile({m.name, white});
-        if (lobes.grained()) lobes.tangent = {1, 0.3, 0};
-        double least = 1, most = 0;
-        for (const double view : {0.01, 0.6, 1.1, 1.4}) {
-            const double back = furnace(lobes, view, false);
-            least = std::min(least, back), most = std::max(most, back);
-        }
-        EXPECT_LE(most, 1.006) << m.name;
-        EXPECT_GE(least, 0.98) << m.name;
-        if (std::getenv("CRESCENTE_MEASURE")) std::printf("%-28s %.4f to %.4f\n", m.name.c_str(), least, most);
     }
 }
 

@@ -102,7 +102,6 @@ TEST(Denoise, ShadowsOnCatchers) {
             EXPECT_LT(filtered, gain * raw) << samples << (transparent ? ", alpha " : ", color ") << raw;
             EXPECT_LT(filtered, before) << samples;
             before = filtered;
-            if (std::getenv("CRESCENTE_MEASURE")) std::printf("%s %4d samples: raw %.5f, filtered %.5f\n", transparent ? "alpha" : "color", samples, raw, filtered);
         }
     }
 }
