@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace crescente::geometry {
 namespace {
@@ -32,6 +33,51 @@ void double_element(std::vector<T>& of, std::uint32_t i) {
     if (!of.empty()) of.push_back(T(of[i]));
 }
 
+// What the corners of triangles have in common that are one vertex.
+struct Vertex {
+    std::array<double, 3> position;
+    std::array<float, 3> normal;
+    std::array<float, 2> first, second;
+    std::array<float, 4> color;
+
+    auto operator<=>(const Vertex&) const = default;
+};
+
+// One position, with its normal and all else, for each vertex: files without indices have one for each corner.
+void share_vertices(Mesh& mesh) {
+    std::map<Vertex, std::uint32_t> known;
+    Mesh shared;
+    const auto keep = [](const auto& from, auto& to, std::uint32_t i) {
+        if (!from.empty()) to.push_back(from[i]);
+    };
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        auto& triangle = shared.triangles.emplace_back(mesh.triangles[t]);
+        for (int k = 0; k < 3; ++k) {
+            std::uint32_t& corner = triangle[static_cast<std::size_t>(k)];
+            const Vec3 p = mesh.positions[corner], n = mesh.corner_normal(t, k);
+            Vertex vertex{{p.x, p.y, p.z}, {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}, mesh.coordinates[0][corner], {}, {}};
+            if (!mesh.coordinates[1].empty()) vertex.second = mesh.coordinates[1][corner];
+            if (!mesh.colors.empty()) vertex.color = mesh.colors[corner];
+            const auto [at, is_new] = known.try_emplace(vertex, static_cast<std::uint32_t>(known.size()));
+            if (is_new) {
+                shared.positions.push_back(p), shared.normals.push_back(vertex.normal);
+                for (std::size_t set = 0; set < 2; ++set) keep(mesh.coordinates[set], shared.coordinates[set], corner);
+                keep(mesh.colors, shared.colors, corner);
+            }
+            corner = at->second;
+        }
+    }
+    shared.slots = std::move(mesh.slots);
+    mesh = std::move(shared);
+}
+
+// As many normals as corners would be taken for theirs.
+void tell_normals_apart(Mesh& mesh) {
+    if (mesh.normals.size() != 3 * mesh.triangles.size()) return;
+    double_element(mesh.positions, 0), double_element(mesh.normals, 0), double_element(mesh.colors, 0);
+    for (auto& set : mesh.coordinates) double_element(set, 0);
+}
+
 // Gives triangles with mirrored coordinates positions of their own.
 void separate_mirrored(Mesh& mesh, const std::vector<bool>& mirrored) {
     const std::size_t count = mesh.positions.size();
@@ -53,17 +99,17 @@ void separate_mirrored(Mesh& mesh, const std::vector<bool>& mirrored) {
             corner = copy[corner];
         }
     }
-    // As many normals as corners would be taken for theirs.
-    if (mesh.positions.size() > count && mesh.normals.size() == 3 * mesh.triangles.size()) double_position(0);
 }
 
 }  // namespace
 
 void add_tangents(Mesh& mesh) {
-    if (mesh.coordinates[0].empty() || !mesh.tangents.empty() || mesh.normals.size() != mesh.positions.size()) return;
+    if (mesh.coordinates[0].empty() || !mesh.tangents.empty() || mesh.normals.empty() || mesh.triangles.empty()) return;
+    share_vertices(mesh);
     std::vector<bool> mirrored;
     for (const auto& t : mesh.triangles) mirrored.push_back(gradient(mesh, t).area < 0);
     separate_mirrored(mesh, mirrored);
+    tell_normals_apart(mesh);
     std::vector<Vec3> sums(mesh.positions.size());
     std::vector<float> signs(mesh.positions.size(), 1);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "io/gltf_draco.h"
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
+#include "io/openimageio.h"
 #include "io/text_file.h"
 
 namespace crescente::io {
@@ -29,6 +30,7 @@ const std::vector<std::string> known_extensions{
 
 bool is_known(const std::string& extension) {
     if (extension == "KHR_draco_mesh_compression") return can_decode_draco();
+    if (extension == "EXT_texture_webp") return has_openimageio();
     return std::find(known_extensions.begin(), known_extensions.end(), extension) != known_extensions.end();
 }
 
@@ -72,15 +74,10 @@ private:
     // Of meshes that a material bends the normals or the grain of by their texture coordinates.
     void add_missing_tangents() {
         for (const scene::Node& node : scene_.nodes) {
-            const bool asks = std::any_of(node.materials.begin(), node.materials.end(), [&](scene::MaterialId id) { return id.valid() && asks_for_tangents(scene_.materials[id.value]); });
+            const bool asks = std::any_of(node.materials.begin(), node.materials.end(), [&](scene::MaterialId id) { return id.valid() && scene::asks_for_tangents(scene_.materials[id.value]); });
             if (!asks || !node.shape.valid()) continue;
             if (auto* mesh = std::get_if<geometry::Mesh>(&scene_.shapes[node.shape.value].shape)) geometry::add_tangents(*mesh);
         }
-    }
-    static bool asks_for_tangents(const scene::Material& material) {
-        const auto bends = [](const scene::TextureBinding& b) { return b.target == "normal" || b.target == "clearcoat_normal"; };
-        const auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
-        return (m && m->anisotropy > 0) || std::any_of(material.textures.begin(), material.textures.end(), bends);
     }
 
     std::vector<std::size_t> top_nodes() {
@@ -325,13 +322,20 @@ private:
     std::size_t cameras_ = 0, skins_ = 0, instances_ = 0;
 };
 
+const char* hint_for(std::string_view extension) {
+    if (extension == "KHR_texture_basisu") return "its textures are in KTX2 (Basis Universal): convert them to PNG, JPEG or WebP";
+    if (extension == "EXT_texture_webp") return "its textures are in WebP, which OpenImageIO reads: this build has none";
+    if (extension == "EXT_meshopt_compression") return "its meshes are compressed by meshoptimizer: save it without";
+    return "";
+}
+
 // Extensions that must be understood and are not.
 Problems missing_extensions(GltfDocument& document) {
     Problems missing;
     for (const Json& name : document.array("extensionsRequired")) {
         if (name.text() && is_known(*name.text())) continue;
         const std::string shown = name.text() ? name.text()->substr(0, 100) : std::string("?");
-        missing.push_back({document.problems.file(), "/extensionsRequired", "the file needs the extension " + shown + ", which is not supported", ""});
+        missing.push_back({document.problems.file(), "/extensionsRequired", "the file needs the extension " + shown + ", which is not supported", hint_for(shown)});
         constexpr std::size_t most = 50;
         if (missing.size() >= most) break;
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "io/openimageio.h"
+
 namespace crescente::io {
 namespace {
 
@@ -107,7 +109,7 @@ scene::Material GltfMaterials::read(std::optional<std::size_t> which) {
     m.emissive = rgb(times(emissive, {strength, strength, strength}));
     if (auto glow = texture(object, place, "emissiveTexture"); glow && !unlit && !math::is_black(m.emissive)) bind("emissive", std::move(*glow));
 
-    m.ior = document_.number(extension("KHR_materials_ior"), place, "ior", 1.5);
+    m.ior = document_.number(extension("KHR_materials_ior"), place, "ior", 1.5);  // 0: infinite
     const Json& transmission = extension("KHR_materials_transmission");
     m.transmission = document_.number(transmission, place, "transmissionFactor", 0);
     if (auto share = texture(transmission, place, "transmissionTexture"); share && m.transmission > 0) bind("transmission", std::move(*share));
@@ -206,7 +208,9 @@ std::optional<scene::Texture> GltfMaterials::texture(const Json& owner, const Pl
     const auto index = document_.index(*info, place, "index", textures.size());
     if (!index) return std::nullopt;
     const Json& object = textures[*index];
-    if (!object.find("source")) {
+    const Json* webp = has_openimageio() && !object.find("source") ? GltfDocument::extension(object, "EXT_texture_webp") : nullptr;
+    const Json& shows = webp && webp->find("source") ? *webp : object;
+    if (!shows.find("source")) {
         const Json* extensions = object.find("extensions");
         if (extensions && extensions->object()) {
             for (const auto& member : *extensions->object()) other_sources_.insert(member.key.substr(0, 100));
@@ -214,7 +218,7 @@ std::optional<scene::Texture> GltfMaterials::texture(const Json& owner, const Pl
         ++without_source_;
         return std::nullopt;
     }
-    const auto source = document_.index(object, list / *index, "source", document_.array("images").size());
+    const auto source = document_.index(shows, list / *index, "source", document_.array("images").size());
     scene::Texture texture;
     texture.image = source ? image(*source) : nullptr;
     if (!texture.image) return std::nullopt;

@@ -14,6 +14,7 @@
 
 #include "geometry/mesh_normals.h"
 #include "geometry/mesh_repair.h"
+#include "geometry/mesh_tangents.h"
 #include "io/assimp_files.h"
 #include "io/assimp_material.h"
 #include "io/isolated.h"
@@ -204,6 +205,7 @@ private:
         } else if (!textured) {  // vertices in one place may have several coordinates
             geometry::weld_vertices(mesh);
         }
+        if (textured && scene::asks_for_tangents(loaded_.scene.materials[shown.material.value])) geometry::add_tangents(mesh);
         shown.shape = {static_cast<std::uint32_t>(loaded_.scene.shapes.size())};
         loaded_.scene.shapes.push_back({from.mName.C_Str(), std::move(mesh)});
         return shown;

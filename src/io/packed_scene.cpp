@@ -44,7 +44,7 @@ void shape(Archive& a, scene::NamedShape& v) {
     if (!std::holds_alternative<geometry::Mesh>(v.shape)) v.shape = geometry::Mesh{};
     auto& mesh = std::get<geometry::Mesh>(v.shape);
     array(a, mesh.positions), array(a, mesh.triangles), array(a, mesh.normals), array(a, mesh.slots);
-    array(a, mesh.coordinates[0]), array(a, mesh.colors);
+    array(a, mesh.coordinates[0]), array(a, mesh.colors), array(a, mesh.tangents);
 }
 
 template <class Archive>

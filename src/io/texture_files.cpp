@@ -22,6 +22,9 @@ using ImagePointer = std::shared_ptr<const TextureImage>;
 
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
 
+// KTX 2 (Khronos), section 3.1. glTF's KHR_texture_basisu has its pictures in it.
+constexpr std::string_view ktx2_identifier{"\xabKTX 20\xbb\r\n\x1a\n", 12};
+
 bool shows_color(const scene::Material& material, const scene::TextureBinding& binding) {
     switch (binding.texture.color_space) {
         case scene::ColorSpace::srgb: return true;
@@ -159,6 +162,12 @@ Expected<Problems> load_textures(std::span<scene::Material> materials, const std
                 encoded.push_back(std::move(*bytes));
             } else {
                 unread.error = bytes.error().problems.front().reason;
+            }
+            if (unread.error.empty() && std::string_view(encoded.back()).starts_with(ktx2_identifier)) {
+                unread.error = "is in KTX2 (Basis Universal, KHR_texture_basisu), which is not read: convert it to PNG, JPEG or WebP";
+                encoded.pop_back();
+            }
+            if (!unread.error.empty()) {
                 place_picture(wanted[next], std::move(unread));
                 continue;
             }

@@ -58,6 +58,9 @@ private:
     void under_coat(Vec3 l, Vec3 to_light, Scattered& sum) const;
     void add_highlight(Vec3 l, Scattered& sum) const;
     double highlight_scale() const;
+    const MissingCells& cells_of_multiple() const { return gives_back_below() ? lobes_.lost_cells : lobes_.multiple_cells; }
+    // Coats that do not follow the surface, and the side without them, are not what Lobes::lost_below was found for.
+    bool gives_back_below() const { return lobes_.gives_back_below && !facing_.inside && lobes_.coat_normal == Vec3{}; }
 
     const Lobes& lobes_;
     const Facing& facing_;
@@ -155,6 +158,7 @@ double Scattering::above_layer(Vec3 w, double coat_cosine) const {
 }
 
 double Scattering::missing(Vec3 w) const {
+    if (gives_back_below()) return at_cosine(lobes_.lost_below, w.z);
     if (!lobes_.grained()) return layer_at(lobes_, w.z).missing;
     return (at_cosine(lobes_.sums, w.z) + at_cosine(lobes_.lean, w.z) * static_cast<float>(along_grain(w))).missing();
 }
@@ -184,9 +188,10 @@ Scattered Scattering::toward(Vec3 to_light) const {
     const Vec3 l = local(to_light);
     if (!crosses) add_diffuse(l, to_light, sum), add_highlight(l, sum);
     add_facets(l, sum);
-    add_multiple(l, sum);
+    if (!gives_back_below()) add_multiple(l, sum);
     if (lobes_.has_sheen()) under_sheen(l, sum);
     if (lobes_.coat > 0) under_coat(l, to_light, sum);
+    if (gives_back_below()) add_multiple(l, sum);
     return sum;
 }
 
@@ -227,8 +232,8 @@ void Scattering::add_multiple(Vec3 l, Scattered& sum) const {
     const double cosine = l.z;
     const RoughGlass& glass = lobes_.glass;
     if (cosine > 0 && chances_[multiple] > 0) {
-        sum.glossy += lobes_.multiple * static_cast<float>(missing(v_) * missing(l) * lobes_.multiple_density * cosine);
-        sum.pdf += chances_[multiple] * density_of_cosine(lobes_.multiple_cells, cosine);
+        sum.glossy += lobes_.multiple * static_cast<float>(missing(v_) * missing(l) * (gives_back_below() ? lobes_.lost_density : lobes_.multiple_density) * cosine);
+        sum.pdf += chances_[multiple] * density_of_cosine(cells_of_multiple(), cosine);
     }
     if (cosine > 0 && chances_[glass_multiple] > 0) {
         const double stays = missing_in_glass(v_.z, side_) * missing_in_glass(cosine, side_) * glass.density[side_] * (1 - glass.through[side_]);
@@ -298,7 +303,7 @@ std::optional<Vec3> Scattering::draw(Lobe lobe, std::array<double, 3> u) const {
     const auto above = [](Vec3 l) { return l.z > 0 ? std::optional(l) : std::nullopt; };
     if (lobe == diffuse) return about_z(std::sqrt(1 - u[2]));
     if (lobe == fibres) return about_z(1 - u[2]);
-    if (lobe == multiple) return about_z(draw_cosine(lobes_.multiple_cells, u[2]));
+    if (lobe == multiple) return about_z(draw_cosine(cells_of_multiple(), u[2]));
     if (lobe == glass_multiple) return about_z(draw_cosine(lobes_.glass.cells[side_], u[2]));
     if (lobe == through) return -about_z(draw_cosine(lobes_.glass.cells[1 - side_], u[2]));
     if (lobe == highlight) {

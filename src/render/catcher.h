@@ -2,6 +2,7 @@
 // and the objects that the surface mirrors are added. To everything else the surface is what its material says.
 //
 // The share is by luminance, of the irradiance by all lights and the surroundings with shadows over that without; at level indirect light from other surfaces makes shadows brighter.
+// Through a lens it is that of all the catchers that are seen in a pixel (render/lens_sampler.h).
 #pragma once
 
 #include "render/growth.h"
@@ -21,6 +22,9 @@ struct CaughtLight {
 
 // Of the surroundings, evenly and without shadows, as levels that do not sample count them.
 CaughtLight caught_evenly(const World& world, Vec3 normal);
+
+// Of lights without extent, as far as their ways are known.
+CaughtLight caught_by_lamps(const World& world, const Tile& tile, std::uint32_t node);
 
 // What samples told of it. Their estimates keep, of the diffuse part, the light with shadows as green and that without as blue.
 CaughtLight caught_by_samples(const World& world, const Tile& tile, std::uint32_t node);

@@ -14,7 +14,7 @@
 namespace crescente::render {
 
 // To be raised whenever the bytes of the file change, or the trees that a scene gives.
-inline constexpr std::uint32_t checkpoint_version = 5;
+inline constexpr std::uint32_t checkpoint_version = 6;
 
 // What a session counts that is not in its tiles; see Stats.
 struct SessionCounts {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int deepest = 3;             // bounces after which nodes weigh too little to be filtered
 constexpr std::uint32_t own_way = 1;   // of roots; each bounce adds two bits
+constexpr std::uint32_t caught_way = 1u << 31;  // is added for nodes that catch
 
 // A node that has samples, and all that the filter needs to know of it.
 struct NoisyNode {
@@ -23,6 +24,8 @@ struct NoisyNode {
     FilteredLight light;
     Rgb diffuse_color, glossy_color;  // of the surface, which light is without
     float trust;             // share that its own samples have in what is shown; the rest is the filter's
+
+    bool catches() const { return way & caught_way; }  // then the diffuse light is as_caught()
 };
 
 class NoisyNodes {
@@ -61,8 +64,7 @@ private:
     void add(std::uint32_t i, std::uint32_t way, float x, float y, int depth) {
         const Node& node = tile_.nodes[i];
         if (node.left_scene()) return;
-        // What a catcher keeps as diffuse is no radiance, and its alpha goes by the same samples: it is shown as it is.
-        if (node.sampled && i < tile_.samples.size() && tile_.samples[i] > 0 && !catches(world_, tile_, i)) found_.push_back(noisy(i, way, x, y));
+        if (node.sampled && i < tile_.samples.size() && tile_.samples[i] > 0) found_.push_back(noisy(i, way, x, y));
         if (depth == deepest) return;
         for_each_child(tile_, i, [&](std::uint32_t child, Way next) { add(child, way << 2 | static_cast<std::uint32_t>(next), x, y, depth + 1); });
     }
@@ -70,6 +72,7 @@ private:
     NoisyNode noisy(std::uint32_t i, std::uint32_t way, float x, float y) const {
         const Node& node = tile_.nodes[i];
         NoisyNode noisy{i, way, x, y, {}, {}, {1, 1, 1}, {1, 1, 1}, 0};
+        if (catches(world_, tile_, i)) noisy.way |= caught_way;
         const Vec3 from_viewer = node.position - world_.camera.position();
         noisy.guide.position = {static_cast<float>(from_viewer.x), static_cast<float>(from_viewer.y), static_cast<float>(from_viewer.z)};
         noisy.guide.normal = node.normal;
@@ -77,18 +80,24 @@ private:
         Lobes scratch;
         const Lobes& lobes = lobes_of(world_, tile_, i, scratch);
         noisy.guide.roughness = roughness_of(lobes);
-        if (world_.textured_material(node.material)) {
+        if (world_.textured_material(node.material) && !noisy.catches()) {
             constexpr float darkest = 0.02f;
             const auto bright = [&](Rgb v) { return Rgb{std::max(v.r, darkest), std::max(v.g, darkest), std::max(v.b, darkest)}; };
             noisy.diffuse_color = bright(lobes.albedo);
             if (lobes.layered()) noisy.glossy_color = bright(lobes.highlight);
         }
-        const SampledParts parts = sampled_parts(world_, tile_, i);
+        SampledParts parts = sampled_parts(world_, tile_, i);
+        if (noisy.catches()) {
+            const CaughtLight caught = caught_by_samples(world_, tile_, i);
+            parts.diffuse = as_caught(caught.open, caught.all);
+        }
         noisy.light.diffuse = over(parts.diffuse, noisy.diffuse_color), noisy.light.glossy = over(parts.glossy, noisy.glossy_color);
-        noisy.light.luminance = luminance(noisy.light.diffuse + noisy.light.glossy);
+        noisy.light.luminance = noisy.catches() ? share_of(parts.diffuse) + luminance(parts.glossy) : luminance(noisy.light.diffuse + noisy.light.glossy);
         const double wanted = samples_wanted(world_, tile_, i), samples = tile_.samples[i];
         noisy.trust = samples >= wanted ? 1.0f : static_cast<float>(samples / wanted);
-        if (parts.deviation >= 0) {
+        if (noisy.catches()) {
+            noisy.guide.aim = noisy.trust;
+        } else if (parts.deviation >= 0) {
             const float seen = luminance(parts.diffuse + parts.glossy), bare = seen > 0 ? noisy.light.luminance / seen : 1;
             noisy.light.variance = parts.deviation * parts.deviation * bare * bare / static_cast<float>(samples);
             noisy.guide.aim = noisy.light.variance * noisy.trust;
@@ -146,6 +155,7 @@ Layer layer_of(const World& world, std::span<const Tile* const> tiles, const std
     Layer layer;
     if (x1 <= x0) return layer;
     layer.x0 = x0, layer.y0 = y0;
+    layer.grid.shares = way & caught_way;
     layer.grid.width = x1 - x0, layer.grid.height = y1 - y0;
     layer.grid.guides.resize(static_cast<std::size_t>(layer.grid.width) * layer.grid.height);
     layer.grid.light.resize(layer.grid.guides.size());
@@ -165,7 +175,8 @@ bool look_up(const Layer& layer, const NoisyNode& n, FilteredLight& light) {
         light = layer.light(x, y);
         return true;
     }
-    const bool told = n.light.variance >= 0;
+    const bool told = n.light.variance >= 0 || n.catches();
+    FilteredLight own_light = n.light;
     constexpr float own = 4;  // as much as the nearest corner can have
     float diffuse_weights = told ? own : 0, glossy_weights = diffuse_weights;
     light = {};
@@ -176,7 +187,8 @@ bool look_up(const Layer& layer, const NoisyNode& n, FilteredLight& light) {
             const float near = (2 - std::abs(n.x - static_cast<float>(u))) * (2 - std::abs(n.y - static_cast<float>(v)));
             const Alikeness alike = near > 0 ? alikeness(n.guide, layer.guide(u, v)) : Alikeness{};
             if (alike.diffuse == 0) continue;
-            const float weight = told ? near * likelihood(n.light, layer.light(u, v)) : near;
+            if (n.catches()) own_light.variance = layer.light(u, v).variance;
+            const float weight = told ? near * likelihood(own_light, layer.light(u, v)) : near;
             diffuse_weights += weight * alike.diffuse, glossy_weights += weight * alike.glossy;
             light.diffuse += weight * alike.diffuse * layer.light(u, v).diffuse, light.glossy += weight * alike.glossy * layer.light(u, v).glossy;
         }
@@ -187,10 +199,16 @@ bool look_up(const Layer& layer, const NoisyNode& n, FilteredLight& light) {
     return true;
 }
 
+// What a catcher shows more of what is behind it by the filtered light.
+float clearer(const NoisyNode& n, const FilteredLight& filtered, CaughtLight by_lamps) {
+    const auto clear = [&](Rgb caught) { return CaughtLight{by_lamps.open + caught.g, by_lamps.all + caught.b}.clear(); };
+    return clear(filtered.diffuse) - clear(n.light.diffuse);
+}
+
 }  // namespace
 
-std::vector<std::vector<Rgb>> denoise(const World& world, std::span<const Tile* const> tiles, parallel::Pool& pool) {
-    std::vector<std::vector<Rgb>> corrections(tiles.size());
+std::vector<Corrections> denoise(const World& world, std::span<const Tile* const> tiles, parallel::Pool& pool) {
+    std::vector<Corrections> corrections(tiles.size());
     std::vector<std::vector<NoisyNode>> nodes(tiles.size());
     pool.for_each(tiles.size(), [&](std::size_t t) {
         if (tiles[t]) nodes[t] = NoisyNodes(world, *tiles[t]).find();
@@ -201,16 +219,26 @@ std::vector<std::vector<Rgb>> denoise(const World& world, std::span<const Tile* 
             if (n.trust < 1 && std::find(ways.begin(), ways.end(), n.way) == ways.end()) ways.push_back(n.way);
         }
     }
+    const bool apart = world.environment.source().transparent;
     for (const std::uint32_t way : ways) {
         Layer layer = layer_of(world, tiles, nodes, way, pool);
         filter(layer.grid, pool);
         pool.for_each(tiles.size(), [&](std::size_t t) {
+            Lobes scratch;
             for (const NoisyNode& n : nodes[t]) {
                 FilteredLight light;
                 if (n.way != way || n.trust == 1 || !look_up(layer, n, light)) continue;
-                if (corrections[t].empty()) corrections[t].resize(tiles[t]->nodes.size());
-                const Rgb difference = n.diffuse_color * (light.diffuse - n.light.diffuse) + n.glossy_color * (light.glossy - n.light.glossy);
-                corrections[t][n.node] = difference * (1 - n.trust);
+                if (corrections[t].radiance.empty()) corrections[t].radiance.resize(tiles[t]->nodes.size());
+                Rgb difference = n.glossy_color * (light.glossy - n.light.glossy);
+                if (n.catches()) {
+                    const float clear = clearer(n, light, caught_by_lamps(world, *tiles[t], n.node)) * lobes_of(world, *tiles[t], n.node, scratch).opacity;
+                    difference += seen_behind(world, tiles[t]->nodes[n.node].position) * clear;
+                    if (corrections[t].clear.empty() && apart) corrections[t].clear.resize(tiles[t]->nodes.size());
+                    if (apart) corrections[t].clear[n.node] = clear * (1 - n.trust);
+                } else {
+                    difference += n.diffuse_color * (light.diffuse - n.light.diffuse);
+                }
+                corrections[t].radiance[n.node] = difference * (1 - n.trust);
             }
         });
     }

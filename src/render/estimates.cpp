@@ -25,13 +25,13 @@ Spread spread_so_far(const Estimate& estimate, std::uint32_t samples) {
     return {std::max(0.0f, mean), std::sqrt(samples > 1 ? variance * count / (count - 1) : variance)};
 }
 
-Spread spread_of(const Estimate& estimate, std::uint32_t samples) {
-    return samples >= pilot ? unpacked(estimate.spread) : spread_so_far(estimate, samples);
-}
-
 const Estimate* estimates_of(const World& world, const Tile& tile, std::uint32_t node) { return tile.estimates.data() + node * estimate_groups(world); }
 
 }  // namespace
+
+Spread spread_of(const Estimate& estimate, std::uint32_t samples) {
+    return samples >= pilot ? unpacked(estimate.spread) : spread_so_far(estimate, samples);
+}
 
 std::size_t estimate_groups(const World& world) { return world.emitters.groups() + 1; }
 

@@ -52,6 +52,7 @@ struct Spread {
     float mean = 0, deviation = 0;
 };
 Spread spread_of(const World& world, const Estimate* estimates, std::uint32_t samples);
+Spread spread_of(const Estimate& estimate, std::uint32_t samples);  // of one
 
 // The same for samples spread like this, of light that weighs so much in a pixel, which is the mean of so many; and as a power of two times the pilot's, up to
 // the settings' bound.

@@ -119,13 +119,14 @@ std::vector<T> developed(const Tile& tile, OfNodes&& of_nodes, const std::vector
 
 }  // namespace
 
-std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections) {
+std::vector<Rgb> develop(const Tile& tile, const Corrections& corrections) {
     if (!tile.shows_pixels() && !tile.lens_pixels.empty()) return tile.lens_pixels;
     return tile.shows_pixels() ? tile.pixels : developed<Rgb>(tile, [&](const Tile& t) { return radiances(t, corrections); }, tile.pixels);
 }
 
-std::vector<float> develop_clear(const Tile& tile) {
-    return tile.shows_pixels() ? tile.clear_pixels : developed<float>(tile, clearness, tile.clear_pixels);
+std::vector<float> develop_clear(const Tile& tile, const Corrections& corrections) {
+    if (!tile.shows_pixels() && !tile.lens_pixels.empty()) return tile.lens_clear;
+    return tile.shows_pixels() ? tile.clear_pixels : developed<float>(tile, [&](const Tile& t) { return clearness(t, corrections); }, tile.clear_pixels);
 }
 
 void keep_picture(Tile& tile, std::span<const Rgb> displayed) {
@@ -188,12 +189,12 @@ scene::Image blank_image(int width, int height, bool all_layers, bool alpha) {
     return image;
 }
 
-void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, std::span<const Rgb> corrections) {
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, const Corrections& corrections) {
     std::vector<Rgb> made;
     if (!tile.shows_pixels()) made = develop(tile, corrections);
     const std::vector<Rgb>& pixels = tile.shows_pixels() ? tile.pixels : made;
     const std::size_t channels = image.layers[0].channels.size();
-    const std::vector<float> clear = channels == 4 ? develop_clear(tile) : std::vector<float>{};
+    const std::vector<float> clear = channels == 4 ? develop_clear(tile, corrections) : std::vector<float>{};
     for (int y = 0; y < tile.height; ++y) {
         float* to = &image.layers[0].values[channels * (static_cast<std::size_t>(tile.y0 + y) * image.width + tile.x0)];
         for (int x = 0; x < tile.width; ++x, to += channels) {

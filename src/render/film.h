@@ -10,11 +10,11 @@
 namespace crescente::render {
 
 // The colours of a tile's pixels, row by row, as its trees stand: the mean of a pixel's corners, or of its parts where it was split.
-// Before all corners are there, coarser ones are interpolated. Black for a tile without any. `corrections`: by node, see radiances().
-std::vector<Rgb> develop(const Tile& tile, std::span<const Rgb> corrections = {});
+// Before all corners are there, coarser ones are interpolated. Black for a tile without any.
+std::vector<Rgb> develop(const Tile& tile, const Corrections& corrections = {});
 
 // The share of what is behind the scene that is seen in each pixel, in the same way; empty: none in any, or the picture does not keep it apart.
-std::vector<float> develop_clear(const Tile& tile);
+std::vector<float> develop_clear(const Tile& tile, const Corrections& corrections = {});
 
 // Makes what the tile shows its `pixels`, and gives these up. `displayed`: if not empty, the colours that were shown, which the filter had a share in.
 void keep_picture(Tile& tile, std::span<const Rgb> displayed = {});
@@ -32,6 +32,6 @@ Tile without_trees(const Tile& tile, std::vector<Rgb> pixels);
 scene::Image blank_image(int width, int height, bool all_layers, bool alpha);
 
 // Writes what the tile knows into every layer of the image. `level` is the level that each finished stage belongs to.
-void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, std::span<const Rgb> corrections = {});
+void expose(const Tile& tile, const World& world, std::span<const scene::Level> level_of_stage, scene::Image& image, const Corrections& corrections = {});
 
 }  // namespace crescente::render

@@ -15,7 +15,7 @@ std::size_t sum_columns(const Tile& tile, Length length) {
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
     return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.samples) + vector_bytes(tile.estimates) + vector_bytes(tile.lens_samples) +
-           vector_bytes(tile.lens_estimates) + vector_bytes(tile.lens_pixels) + vector_bytes(tile.corners) +
+           vector_bytes(tile.lens_estimates) + vector_bytes(tile.lens_pixels) + vector_bytes(tile.lens_clear) + vector_bytes(tile.corners) +
            vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) + vector_bytes(tile.todo) + vector_bytes(tile.pixels) + vector_bytes(tile.clear_pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
@@ -49,7 +49,7 @@ void forget_samples(Tile& tile) {
     show_without_samples(tile);
     for (Node& node : tile.nodes) node.outdated = false;
     release(tile.samples), release(tile.estimates);
-    release(tile.lens_samples), release(tile.lens_estimates), release(tile.lens_pixels);
+    release(tile.lens_samples), release(tile.lens_estimates), release(tile.lens_pixels), release(tile.lens_clear);
     tile.lens_piloted = false;
 }
 
@@ -89,10 +89,10 @@ Rgb influence(const Tile& tile, std::uint32_t node) {
     return product;
 }
 
-std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections) {
+std::vector<Rgb> radiances(const Tile& tile, const Corrections& corrections) {
     std::vector<Rgb> result(tile.nodes.size());
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
-        const Rgb correction = corrections.empty() ? Rgb{} : corrections[i];
+        const Rgb correction = corrections.radiance.empty() ? Rgb{} : corrections.radiance[i];
         result[i] = radiance_above(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child) { return result[child]; }, correction);
     }
     return result;
@@ -106,11 +106,11 @@ void append_radiances(const Tile& tile, std::vector<Rgb>& known) {
     }
 }
 
-std::vector<float> clearness(const Tile& tile) {
-    if (!tile.keeps_clear) return {};
+std::vector<float> clearness(const Tile& tile, const Corrections& corrections) {
+    if (corrections.clear.empty() && !tile.keeps_clear) return {};
     std::vector<float> result(tile.nodes.size());
     for (std::size_t i = tile.nodes.size(); i-- > 0;) {
-        float sum = static_cast<float>(tile.nodes[i].clear) / float{all_clear};
+        float sum = static_cast<float>(tile.nodes[i].clear) / float{all_clear} + (corrections.clear.empty() ? 0 : corrections.clear[i]);
         for_each_child(tile, static_cast<std::uint32_t>(i), [&](std::uint32_t child, Way) { sum += luminance(tile.nodes[child].weight) * result[child]; });
         result[i] = sum;
     }

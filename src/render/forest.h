@@ -96,8 +96,9 @@ struct Tile {
     std::vector<std::uint16_t> samples;                    // of each node; empty until a level samples
     std::vector<Estimate> estimates;                       // what they say, groups of node i from i * estimate_groups()
     std::vector<std::uint16_t> lens_samples;               // of each pixel of level_lens.h, where the picture is taken through a lens; the nodes then have none
-    std::vector<Estimate> lens_estimates;                  // what they say, groups of pixel i from i * estimate_groups()
+    std::vector<Estimate> lens_estimates;                  // what they say, columns of pixel i from i * LensColumns::count()
     std::vector<Rgb> lens_pixels;                          // what the picture shows of them; empty: it shows the trees
+    std::vector<float> lens_clear;                         // with those, as clear_pixels; empty: the picture keeps no alpha
     std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
     std::vector<Pending> pending;
     std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end
@@ -180,14 +181,19 @@ Tile blank_tile(const Tile& place);
 // The product of the weights from the pixel down to the node, taken in this order.
 Rgb influence(const Tile& tile, std::uint32_t node);
 
-// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera. `corrections`: by node, what is added to its
-// own radiance; empty: nothing.
-std::vector<Rgb> radiances(const Tile& tile, std::span<const Rgb> corrections = {});
+// By node, what is added to its own radiance, and to its share of what is behind the scene where the picture keeps that apart. Empty: nothing.
+struct Corrections {
+    std::vector<Rgb> radiance;
+    std::vector<float> clear;
+};
+
+// Radiance of every node with its children, by node: what the trees say now. Roots: as it arrives at the camera.
+std::vector<Rgb> radiances(const Tile& tile, const Corrections& corrections = {});
 
 // The same for the nodes that came since `known` was made, to which it is appended; nothing else changed since, and no node got another child.
 void append_radiances(const Tile& tile, std::vector<Rgb>& known);
 
 // Share of what is behind the scene that is seen in every node, by node. Empty: none in any.
-std::vector<float> clearness(const Tile& tile);
+std::vector<float> clearness(const Tile& tile, const Corrections& corrections = {});
 
 }  // namespace crescente::render

@@ -32,7 +32,8 @@ std::optional<Lens> lens_of(const World& world, std::uint64_t motion) {
     const scene::Camera& camera = *world.scene.camera;
     if (world.scene.settings.level <= scene::Level::edges) return {};
     const bool takes_time = camera.shutter_close > camera.shutter_open;
-    const Lens lens{camera, takes_time ? motion : 0};
+    const bool catches = std::any_of(world.lobes.begin(), world.lobes.end(), [](const Lobes& lobes) { return lobes.catcher; });
+    const Lens lens{camera, takes_time ? motion : 0, catches, world.environment.source().transparent};
     const bool sees_motion = lens.objects != 0 || (takes_time && camera.moves());
     return camera.aperture > 0 || sees_motion ? std::optional(lens) : std::nullopt;
 }

@@ -14,6 +14,8 @@ struct World;
 struct Lens {
     scene::Camera camera;
     std::uint64_t objects = 0;  // hash of how those move that do while the shutter is open; 0: none
+    bool catches = false;       // some material catches shadows
+    bool apart = false;         // what is behind the scene is kept apart: the picture has an alpha channel
 
     bool operator==(const Lens&) const = default;
     double time(double share) const { return camera.shutter_open + (camera.shutter_close - camera.shutter_open) * share; }

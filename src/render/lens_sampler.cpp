@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "math/low_discrepancy.h"
-#include "render/estimates.h"
+#include "render/catcher.h"
 #include "render/hit_surface.h"
 #include "render/surface_lobes.h"
 #include "scene/motion.h"
@@ -25,8 +25,40 @@ std::uint64_t key_of(const PixelSample& p) { return mix_bits(static_cast<std::ui
 
 }  // namespace
 
+LensColumns::LensColumns(const World& world) : groups(estimate_groups(world)), catches(world.lens->catches), apart(world.lens->apart) {}
+
+Spread lens_spread(const World& world, const LensColumns& columns, const Estimate* pixel) {
+    Spread sum = spread_of(world, pixel, pilot);
+    if (columns.catches) {
+        const Spread caught = spread_of(world, pixel + columns.caught(0), pilot), behind = spread_of(world, pixel + columns.behind(0), pilot);
+        sum.mean += behind.mean;
+        sum.deviation += behind.deviation + (caught.mean > 0 ? caught.deviation / caught.mean * behind.mean : 0);
+    }
+    if (columns.apart) {
+        const Spread clear = spread_of(pixel[columns.clear()], pilot);
+        sum.mean += clear.mean, sum.deviation += clear.deviation;
+    }
+    return sum;
+}
+
+LensPixel lens_pixel(const World& world, const LensColumns& columns, const Estimate* pixel, std::uint32_t samples) {
+    Rgb color, behind;
+    CaughtLight caught;
+    for (std::size_t g = 0; g < columns.groups; ++g) {
+        const Rgb scale = scale_of_group(world, g);
+        color += (pixel[g].diffuse + pixel[g].glossy) * scale;
+        if (!columns.catches) continue;
+        caught.open += pixel[columns.caught(g)].diffuse.g * luminance(scale), caught.all += pixel[columns.caught(g)].diffuse.b * luminance(scale);
+        behind += pixel[columns.behind(g)].glossy * scale;
+    }
+    behind *= gray(caught.clear());
+    const float share = 1.0f / static_cast<float>(samples);
+    if (columns.apart) return {color * share, (pixel[columns.clear()].glossy.g + behind.g) * share};
+    return {(color + behind) * share, 0};
+}
+
 LensSampler::LensSampler(const World& world, RayCounts& rays, TestCounts& tests)
-    : world_(world), settings_(world.scene.settings), counts_(rays), tests_(tests), groups_(estimate_groups(world)) {
+    : world_(world), settings_(world.scene.settings), counts_(rays), tests_(tests), columns_(world) {
     samplers_.resize(world.moments ? static_cast<std::size_t>(world.moments->count()) : 1);
 }
 
@@ -45,15 +77,19 @@ void LensSampler::sample(std::span<const PixelSample> pixels, std::span<SampledL
         start(pixels, chosen, moment);
         points_.clear(), weights_.clear(), textured_.clear();
         for (int depth = 0; !paths_.empty(); ++depth) step(world, pixels, depth);
-        point_light_.resize(points_.size() * groups_);
+        const std::size_t groups = columns_.groups, columns = columns_.count();
+        point_light_.resize(points_.size() * groups);
         auto& sampler = samplers_[static_cast<std::size_t>(moment)];
         if (!sampler) sampler = std::make_unique<PathSampler>(world, counts_, tests_);
         sampler->sample(points_, point_light_);
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            for (std::size_t g = 0; g < groups_; ++g) {
-                SampledLight& sum = light_[weights_[k].pixel * groups_ + g];
-                sum.diffuse += weights_[k].throughput * point_light_[k * groups_ + g].diffuse;
-                sum.glossy += weights_[k].throughput * point_light_[k * groups_ + g].glossy;
+            const Rgb weight = weights_[k].throughput, share = gray(luminance(weight) * points_[k].lobes->opacity);  // of a catcher
+            SampledLight* pixel = &light_[weights_[k].pixel * columns];
+            for (std::size_t g = 0; g < groups; ++g) {
+                const SampledLight& arrived = point_light_[k * groups + g];
+                pixel[g].glossy += weight * arrived.glossy;
+                if (points_[k].catches) pixel[columns_.caught(g)].diffuse += share * arrived.diffuse;
+                else pixel[g].diffuse += weight * arrived.diffuse;
             }
         }
     }
@@ -106,9 +142,9 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
             Path path = paths_[block + i];
             const Ray& ray = rays_[block + i];
             const accel::Hit& hit = hits_[block + i];
-            see_lights(world, path, ray, hit.t);
+            if (!path.mirrored) see_lights(world, path, ray, hit.t);
             if (!hit.found()) {
-                see_surroundings(world, path, ray.direction, depth == 0);
+                if (!path.mirrored) see_surroundings(world, path, ray.direction, depth == 0);
                 continue;
             }
             const std::uint32_t material = at.material[i];
@@ -123,6 +159,7 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
             point.to_viewer = -ray.direction;
             point.offset = at.offset[i];
             point.lobes = lobes;
+            point.catches = lobes->catcher && path.sender == no_instance;
             path.length += hit.t;
             point.path = path.length;
             point.key = key_for(path.key, Use::point, depth);
@@ -130,6 +167,7 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
             point.lamps = true;
             if (point.facing.inside && !is_black(lobes->attenuation)) path.throughput *= absorbed(*lobes, hit.t);
             see_emission(world, path, ray, hit, material, *lobes, point.position);
+            if (point.catches) see_behind(world, path, ray.direction, depth == 0, *lobes);
             points_.push_back(point), weights_.push_back({path.pixel, path.throughput});
             if (depth < settings_.depth) go_on(*lobes, point, path, point.index, depth);
         }
@@ -147,12 +185,25 @@ void LensSampler::see_lights(const World& world, const Path& path, const Ray& ra
 }
 
 // A picture's intensity is a factor of what is seen, the strength of a gradient is not.
-void LensSampler::see_surroundings(const World& world, const Path& path, Vec3 direction, bool by_camera) {
-    const bool backdrop = by_camera && world.environment.backdrop();
+LensSampler::Seen LensSampler::surroundings(const World& world, const Path& path, Vec3 direction, bool by_camera) const {
+    const std::size_t none = columns_.groups - 1;  // no group's
+    if (by_camera && world.environment.backdrop()) return {none, backdrop_radiance(world.environment, path.height)};
+    if (!world.environment.source().panorama) return {none, environment_radiance(world.environment, direction)};
     const auto sky = world.emitters.environment(direction);
-    if (backdrop) add(path.pixel, groups_ - 1, path.throughput * backdrop_radiance(world.environment, path.height));
-    else if (world.environment.source().panorama && sky) add(path.pixel, sky->group, path.throughput * sky->radiance);
-    else if (!world.environment.source().panorama) add(path.pixel, groups_ - 1, path.throughput * environment_radiance(world.environment, direction));
+    return sky ? Seen{sky->group, sky->radiance} : Seen{none, {}};
+}
+
+// What is kept apart is counted, whatever it is.
+void LensSampler::see_surroundings(const World& world, const Path& path, Vec3 direction, bool by_camera) {
+    if (columns_.apart && path.sender == no_instance) return add(path.pixel, columns_.clear(), gray(luminance(path.throughput)));
+    const Seen seen = surroundings(world, path, direction, by_camera);
+    add(path.pixel, columns_.light(seen.group), path.throughput * seen.light);
+}
+
+void LensSampler::see_behind(const World& world, const Path& path, Vec3 direction, bool by_camera, const Lobes& catcher) {
+    if (columns_.apart) return add(path.pixel, columns_.behind(columns_.groups - 1), gray(luminance(path.throughput) * catcher.opacity));
+    const Seen seen = surroundings(world, path, direction, by_camera);
+    add(path.pixel, columns_.behind(seen.group), path.throughput * seen.light * catcher.opacity);
 }
 
 // What the surface sends out of its own. The ambient radiance of classic materials belongs to no group.
@@ -165,7 +216,7 @@ void LensSampler::see_emission(const World& world, const Path& path, const Ray& 
         rest = rest - seen * scale_of_group(world, emitted->group);
     }
     const bool classic = material < world.scene.materials.size() && std::holds_alternative<scene::ClassicMaterial>(world.scene.materials[material].model);
-    if (classic) add(path.pixel, groups_ - 1, path.throughput * Rgb{std::max(rest.r, 0.0f), std::max(rest.g, 0.0f), std::max(rest.b, 0.0f)});
+    if (classic) add(path.pixel, columns_.groups - 1, path.throughput * Rgb{std::max(rest.r, 0.0f), std::max(rest.g, 0.0f), std::max(rest.b, 0.0f)});
 }
 
 // One of the rays that perfectly smooth lobes send, by their weight.
@@ -204,11 +255,12 @@ void LensSampler::go_on(const Lobes& lobes, const SamplePoint& point, Path path,
     ray.origin = point.position + point.facing.geometric * (dot(point.facing.geometric, ray.direction) >= 0 ? point.offset : -point.offset);
     const bool straight = way == 2 || (way == 1 && lobes.ior == 1);
     if (!straight) path.sender = point.instance;  // what goes straight through a surface was sent before it
+    path.mirrored = point.catches && !straight;
     next_.push_back(path), next_rays_.push_back(ray);
 }
 
-void LensSampler::add(std::uint32_t pixel, std::size_t group, Rgb light) {
-    if (is_finite(light)) light_[pixel * groups_ + group].glossy += light;
+void LensSampler::add(std::uint32_t pixel, std::size_t column, Rgb light) {
+    if (is_finite(light)) light_[pixel * columns_.count() + column].glossy += light;
 }
 
 }  // namespace crescente::render

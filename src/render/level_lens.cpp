@@ -17,16 +17,17 @@ public:
         : tile_(growth.tile()),
           world_(growth.world()),
           pixels_(lens_pixels_of(growth.tile(), growth.settings())),
-          groups_(estimate_groups(growth.world())),
+          columns_(growth.world()),
+          count_(columns_.count()),
           bound_(static_cast<std::uint32_t>(stage.parameter)),
           most_(static_cast<std::uint32_t>(growth.settings().samples)),
           sampler_(growth.world(), growth.tile().rays, growth.tile().tests) {}
 
     bool run(const Deadline& deadline) {
         const std::size_t pixels = pixels_.count();
-        if (tile_.lens_pixels.empty()) tile_.lens_pixels = develop(tile_);
+        if (tile_.lens_pixels.empty()) show_trees();
         tile_.lens_samples.resize(pixels);
-        tile_.lens_estimates.resize(pixels * groups_);
+        tile_.lens_estimates.resize(pixels * count_);
         if ((tile_.lens_piloted || bound_ > pilot) && most_ > pilot) find_needed();
         while (tile_.cursor < pixels) {
             chunk_.clear();
@@ -46,12 +47,18 @@ public:
     }
 
 private:
+    void show_trees() {
+        std::vector<float> clear = develop_clear(tile_);
+        tile_.lens_pixels = develop(tile_);
+        if (columns_.apart) clear.resize(tile_.lens_pixels.size()), tile_.lens_clear = std::move(clear);
+    }
+
     // How many samples each pixel should have, by the pilots: its own, and all those around it together. A small bright thing far out of focus is spread over many pixels, in most of
     // which none of the first samples happens to meet it.
     void find_needed() {
         const int width = pixels_.width, height = pixels_.height;
         std::vector<Spread> spreads;
-        for (std::size_t i = 0; i < pixels_.count(); ++i) spreads.push_back(spread_of(world_, &tile_.lens_estimates[i * groups_], pilot));
+        for (std::size_t i = 0; i < pixels_.count(); ++i) spreads.push_back(lens_spread(world_, columns_, &tile_.lens_estimates[i * count_]));
         struct Sum {
             double mean = 0, variance = 0;
         };
@@ -88,8 +95,8 @@ private:
         const std::uint32_t needed = most_ <= pilot ? most_ : samples > pilot ? needed_[i] : samples;
         if (samples <= needed) return;
         tile_.lens_samples[i] = 0;
-        for (std::size_t g = 0; g < groups_; ++g) {
-            Estimate& estimate = tile_.lens_estimates[i * groups_ + g];
+        for (std::size_t c = 0; c < count_; ++c) {
+            Estimate& estimate = tile_.lens_estimates[i * count_ + c];
             estimate = {{}, {}, tile_.lens_piloted ? estimate.spread : 0};
         }
     }
@@ -104,13 +111,13 @@ private:
                 samples_.push_back({x_of(i), y_of(i), tile_.lens_samples[i]});
             }
             if (wanting_.empty()) return true;
-            light_.resize(wanting_.size() * groups_);
+            light_.resize(wanting_.size() * count_);
             sampler_.sample(samples_, light_);
             for (std::size_t k = 0; k < wanting_.size(); ++k) {
                 const std::uint32_t i = wanting_[k];
-                for (std::size_t g = 0; g < groups_; ++g) {
-                    Estimate& estimate = tile_.lens_estimates[i * groups_ + g];
-                    const SampledLight& light = light_[k * groups_ + g];
+                for (std::size_t c = 0; c < count_; ++c) {
+                    Estimate& estimate = tile_.lens_estimates[i * count_ + c];
+                    const SampledLight& light = light_[k * count_ + c];
                     const std::uint32_t after_pilot = std::max<std::uint32_t>(pilot, tile_.lens_samples[i]);
                     add_sample(estimate, tile_.lens_piloted ? after_pilot : tile_.lens_samples[i], light.diffuse, light.glossy);
                 }
@@ -126,18 +133,17 @@ private:
     void show(std::uint32_t i) {
         const int x = x_of(i), y = y_of(i);
         if (tile_.lens_samples[i] == 0 || !is_own(x, y)) return;
-        Rgb sum;
-        for (std::size_t g = 0; g < groups_; ++g) {
-            const Estimate& estimate = tile_.lens_estimates[i * groups_ + g];
-            sum += (estimate.diffuse + estimate.glossy) * scale_of_group(world_, g);
-        }
-        tile_.lens_pixels[static_cast<std::size_t>(y - tile_.y0) * static_cast<std::size_t>(tile_.width) + static_cast<std::size_t>(x - tile_.x0)] = sum * (1.0f / static_cast<float>(tile_.lens_samples[i]));
+        const LensPixel pixel = lens_pixel(world_, columns_, &tile_.lens_estimates[i * count_], tile_.lens_samples[i]);
+        const std::size_t own = static_cast<std::size_t>(y - tile_.y0) * static_cast<std::size_t>(tile_.width) + static_cast<std::size_t>(x - tile_.x0);
+        tile_.lens_pixels[own] = pixel.color;
+        if (columns_.apart) tile_.lens_clear[own] = pixel.clear;
     }
 
     Tile& tile_;
     const World& world_;
     const LensPixels pixels_;
-    const std::size_t groups_;
+    const LensColumns columns_;
+    const std::size_t count_;  // of columns
     const std::uint32_t bound_, most_;
     LensSampler sampler_;
     std::vector<std::uint32_t> needed_;  // by pixel, once the pilots are complete

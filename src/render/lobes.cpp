@@ -4,6 +4,7 @@
 
 #include "render/bsdf.h"
 #include "render/classic_view.h"
+#include "render/microfacets.h"
 #include "render/physical_view.h"
 #include "render/thin_film.h"
 
@@ -134,6 +135,48 @@ void set_gives_back(Lobes& lobes) {
     give_back(1, by_interface ? mean_over_light(outside) / (lobes.ior * lobes.ior) : mean_over_light(inside));
 }
 
+// Of light from a direction, what coat, fibres and white facets below them do not send back at once, as bsdf.h has them: the more of what is over the facets at either end does not reach these, or does not
+// leave again, though less would do at the one end. So do light and viewer see the same (reciprocity), and so is nothing gained.
+CosineTable<float> lost_below_layers(const Lobes& lobes) {
+    constexpr int steps = 24;
+    const Microfacets facets{lobes.alpha, lobes.alpha};
+    CosineTable<float> lost;
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        const double cosine = std::max(tabled_cosine(i), 1e-4), coat = coat_reflectance(lobes, cosine), sheen = sheen_reflectance(lobes, cosine);
+        const Vec3 v{std::sqrt(1 - cosine * cosine), 0, cosine};
+        double below = 0;
+        for (int k = 0; k < steps * steps; ++k) {
+            const Vec3 h = facets.sample_seen(v, (k % steps + 0.5) / steps, (k / steps + 0.5) / steps), l = h * (2 * dot(v, h)) - v;
+            if (l.z <= 0) continue;
+            const double reaches = (1 - std::max(coat, coat_reflectance(lobes, l.z))) * (1 - std::max(sheen, sheen_reflectance(lobes, l.z)));
+            below += facets.seen_by_both(v, l) / facets.seen_by(v) * reaches / (steps * steps);
+        }
+        lost[i] = static_cast<float>(std::clamp(1 - coat - (1 - coat) * sheen - below, 0.0, 1.0));
+    }
+    return lost;
+}
+
+// What white facets alone lose, or with what is over them, and how it comes back: from all over, in proportion to what is lost in either direction (Kulla and Conty 2017).
+void set_multiple(Lobes& lobes, Rgb fresnel, const Lobes* whole) {
+    const bool covered = (lobes.coat > 0 || lobes.has_sheen()) && lobes.opacity == 1 && !lobes.smooth() && !lobes.grained() && is_black(lobes.refraction);
+    const bool same = whole && whole->gives_back_below && whole->alpha == lobes.alpha && whole->coat == lobes.coat && whole->coat_alpha == lobes.coat_alpha && whole->sheen_most == lobes.sheen_most &&
+                      whole->sheen_alpha == lobes.sheen_alpha;
+    const double kept = mean_of_sums(lobes.sums);
+    if (1 - kept <= least_missing) return;
+    lobes.multiple = multiple_reflection(fresnel, kept) * lobes.metal_share;
+    lobes.multiple_density = static_cast<float>(1 / (pi * (1 - kept)));
+    lobes.multiple_cells = missing_cells(lobes.sums);
+    if (!covered || (whole && !same)) return;
+    lobes.lost_below = same ? whole->lost_below : lost_below_layers(lobes);
+    const double lost = mean_over_light(lobes.lost_below);
+    if (lost <= least_missing) return;
+    lobes.gives_back_below = true;
+    lobes.lost_density = static_cast<float>(1 / (pi * lost));
+    SplitSums sent;
+    for (std::size_t i = 0; i < sent.size(); ++i) sent[i] = {1 - lobes.lost_below[i], 0};
+    lobes.lost_cells = missing_cells(sent);
+}
+
 // film: reflectance of the surface if all of it is under its thin film.
 void set_layer(Lobes& lobes, const CosineTable<float>& film) {
     const bool lets_in = !is_black(lobes.diffuse);
@@ -153,15 +196,25 @@ void set_layer(Lobes& lobes, const CosineTable<float>& film) {
     for (std::size_t i = 0; i < film.size(); ++i) lobes.layer_lean[i] = kept(lobes.lean[i].whole(), lobes.rise_lean[i]) * (1 - lobes.film);
 }
 
+// Of an infinite index the rise to grazing angles is nothing that an index says: as that of glass, which is near to Schlick's approximation.
+constexpr double schlick_ior = 1.5;
+
 // sums_of: of facets, by their roughness and stretch. whole: of the material without textures, null if this is it.
 template <class SumsOf>
 Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const Lobes* whole) {
     const auto metallic = static_cast<float>(m.metallic), opacity = static_cast<float>(m.opacity);
-    const float dielectric = 1 - metallic, transmission = static_cast<float>(m.transmission) * dielectric;
-    const double r0 = (m.ior - 1) / (m.ior + 1);  // its square is the reflectance
+    if (m.ior == 0 && m.specular == 1 && is_black(m.k)) {  // a metal of the color of its reflection
+        scene::PhysicalMaterial metal = m;
+        metal.base_color = mix(least_of(m.specular_color, 1), m.base_color, static_cast<float>(m.metallic));
+        metal.metallic = 1, metal.ior = 1.5, metal.transmission = 0, metal.specular_color = {1, 1, 1};
+        return compile_physical(metal, sums_of, whole);
+    }
+    const bool endless = m.ior == 0;  // infinite (KHR_materials_ior): whatever does not come back is lost in the body
+    const double ior = endless ? schlick_ior : m.ior, r0 = endless ? 1 : (ior - 1) / (ior + 1);  // its square is the reflectance
+    const float dielectric = 1 - metallic, transmission = endless ? 0 : static_cast<float>(m.transmission) * dielectric;
     Lobes lobes;
     lobes.emission = lobes.shining = m.emissive * opacity;
-    lobes.catcher = m.catcher;
+    lobes.catcher = m.catcher, lobes.opacity = opacity;
     const Rgb diffuse = m.base_color * (dielectric * (1 - static_cast<float>(m.transmission)) * opacity);
     lobes.diffuse = diffuse * static_cast<float>(1 / pi);
     lobes.ambient_diffuse = diffuse;
@@ -170,7 +223,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
     lobes.albedo = conductor ? mix(m.base_color, metal_f0, metallic) : m.base_color;
     const Rgb layer_f0 = least_of(m.specular_color * static_cast<float>(r0 * r0), 1) * static_cast<float>(m.specular);
     lobes.layer_f0 = std::min(max_component(layer_f0), highest_f0);
-    lobes.layer_f90 = static_cast<float>(m.specular), lobes.layer_ior = metallic < 1 ? m.ior : 1;
+    lobes.layer_f90 = static_cast<float>(m.specular), lobes.layer_ior = metallic < 1 ? ior : 1;
     const Rgb f0 = mix(layer_f0, metal_f0, metallic) * opacity;
     lobes.coverage = (lobes.layer_f90 + (1 - lobes.layer_f90) * metallic) * opacity;
     lobes.metal_share = metallic * opacity, lobes.metal = metal_f0 * lobes.metal_share;
@@ -184,16 +237,16 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         lobes.sums = whole->sums, lobes.rise = whole->rise, lobes.lean = whole->lean, lobes.rise_lean = whole->rise_lean;
     } else if (lobes.grained()) {
         const GrainSums facets = sums_of.with_grain(lobes.alpha_along, lobes.alpha);
-        const CosineTable<float> rise = dielectric_rise(m.ior);
+        const CosineTable<float> rise = dielectric_rise(ior);
         lobes.sums = facets.mean.sums, lobes.rise = reflectance(facets.mean.shares, rise);
         lobes.lean = facets.lean.sums, lobes.rise_lean = reflectance(facets.lean.shares, rise);
     } else {
         const FacetSums facets = sums_of(lobes.alpha);
-        lobes.sums = facets.sums, lobes.rise = reflectance(facets.shares, dielectric_rise(m.ior));
+        lobes.sums = facets.sums, lobes.rise = reflectance(facets.shares, dielectric_rise(ior));
     }
     if (m.iridescence > 0) {
         lobes.film = static_cast<float>(m.iridescence), lobes.film_ior = static_cast<float>(m.iridescence_ior), lobes.film_thickness = static_cast<float>(m.iridescence_thickness);
-        lobes.film_f0 = mix(layer_f0, metal_f0, metallic), lobes.film_coverage = opacity;
+        lobes.film_f0 = mix(layer_f0, metal_f0, metallic);
     }
     const UnderFilm film = lobes.film > 0 ? under_film(lobes) : UnderFilm{};
     if (!is_black(m.sheen_color)) {
@@ -213,13 +266,6 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
     }
     lobes.highlight = f0;
     lobes.highlight_lobe = HighlightLobe::ggx;
-    const double kept = mean_of_sums(lobes.sums);
-    if (metallic > 0 && 1 - kept > least_missing) {
-        const Rgb bare = conductor ? mean_fresnel_conductor(m.eta, m.k) : mean_schlick(m.base_color);
-        lobes.multiple = multiple_reflection(mix(bare, film.mean, lobes.film), kept) * (metallic * opacity);
-        lobes.multiple_density = static_cast<float>(1 / (pi * (1 - kept)));
-        lobes.multiple_cells = missing_cells(lobes.sums);
-    }
     if (transmission > 0) {
         lobes.fresnel = Fresnel::dielectric;
         lobes.mirror = gray(dielectric * opacity);
@@ -241,6 +287,10 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         lobes.ambient_specular = 1;
         lobes.refraction = gray(1 - opacity);
         lobes.one_sided = !m.double_sided;
+    }
+    if (metallic > 0) {
+        const Rgb bare = conductor ? mean_fresnel_conductor(m.eta, m.k) : mean_schlick(m.base_color);
+        set_multiple(lobes, mix(bare, film.mean, lobes.film), whole);
     }
     const bool film_matters = lobes.film > 0 && !is_black(lobes.diffuse);
     set_layer(lobes, film_matters ? reflectance(lobes.grained() ? sums_of.with_grain(lobes.alpha_along, lobes.alpha).mean.shares : sums_of(lobes.alpha).shares, film.most) : CosineTable<float>{});
@@ -320,7 +370,7 @@ Rgb beyond_tables(const Lobes& lobes, double cosine) {
     Rgb more;
     if (lobes.conductor > 0) more = (fresnel_conductor(cosine, lobes.eta, lobes.k) - schlick(lobes.conductor_f0, 1, cosine)) * lobes.conductor;
     if (lobes.film > 0 && !lobes.transmits()) {
-        const Rgb under_film = thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0) * lobes.film_coverage;
+        const Rgb under_film = thin_film_reflectance(cosine, lobes.film_ior, lobes.film_thickness, lobes.film_f0) * lobes.opacity;
         more += (under_film - (bare_facet(lobes, cosine) + more)) * lobes.film;
     }
     return more;

@@ -74,6 +74,10 @@ struct Lobes {
     Rgb multiple;            // share of what is missing from those that comes back after more reflections between facets
     float multiple_density = 0;  // so much of it to each direction (1/sr), times what is missing there
     MissingCells multiple_cells{};
+    bool gives_back_below = false;     // a rough metal under coat or fibres: what these and its facets do not send back at once comes back as `multiple` does
+    CosineTable<float> lost_below{};   // then: share of the light of a direction, if the facets reflect all
+    float lost_density = 0;            // of which, and from which cells, as above
+    MissingCells lost_cells{};
     RoughGlass glass;
     Rgb eta, k, conductor_f0;   // of a metal given by its complex index
     float conductor = 0;        // share of that metal in all; 0: there is none
@@ -87,7 +91,7 @@ struct Lobes {
     SheenSums sheen_sums{};
     float film = 0;             // share of the surface under a thin film
     float film_ior = 1, film_thickness = 0;  // nm
-    float film_coverage = 1;    // of the surface itself
+    float opacity = 1;          // of the surface itself: its coverage
     Rgb film_f0;                // below it, seen straight on
     Rgb glass_f0;               // where transmits(): reflectance of its surface, and what it rises to. tinted_glass: these are not what the index says
     float glass_f90 = 1;

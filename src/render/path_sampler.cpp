@@ -109,9 +109,11 @@ void PathSampler::begin(std::span<const SamplePoint> points) {
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
         if (!p.lamps) continue;
-        const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance};
+        const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches};
         const auto arrived = sample_lamp(vertex, numbers(p, 0, Use::lamp)[0]);
-        if (arrived) queue(vertex, *arrived, {i, static_cast<std::uint32_t>(groups_), {}, arrived->light, p.path, 1, {}, true});
+        if (!arrived) continue;
+        if (p.catches) add_unshadowed(i, groups_, arrived->light);
+        queue(vertex, *arrived, {i, static_cast<std::uint32_t>(groups_), p.catches ? arrived->light : Rgb{}, p.catches ? Rgb{} : arrived->light, p.path, 1, {}, true});
     }
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const SamplePoint& p = points[i];
@@ -294,11 +296,13 @@ std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, s
     return arrived;
 }
 
-// One of the lamps without extent, chosen by what they would bring if nothing were in the way; `light` is what the vertex sends to the viewer.
+// One of the lamps without extent, chosen by what they would bring if nothing were in the way; `light` is what the vertex sends to the viewer, or what a
+// catcher gets.
 std::optional<PathSampler::Arrived> PathSampler::sample_lamp(const Vertex& v, double u) {
     const auto bring = [&](const Light& lamp, const Incident& incident) {
         const double cosine = dot(v.facing.shading, incident.to_light);
         if (is_black(incident.strength) || cosine <= 0 || dot(v.facing.geometric, incident.to_light) <= 0) return Rgb{};
+        if (v.catches) return incident.strength * static_cast<float>(cosine);
         return incident.strength * reflect_light(*v.lobes, v.facing.shading, v.to_viewer, incident.to_light, cosine, lamp.makes_highlights());
     };
     const auto count = world_.lights.size();

@@ -113,11 +113,11 @@ void Session::State::show(scene::Image& image, const std::vector<bool>& which, b
             }
             if (is_known(tiles[i]) && !is_dropped(*trees[i])) known[i] = trees[i];
         });
-        const std::vector<std::vector<Rgb>> corrections = filtered ? denoise(*world, known, pool) : std::vector<std::vector<Rgb>>(tiles.size());
+        const std::vector<Corrections> corrections = filtered ? denoise(*world, known, pool) : std::vector<Corrections>(tiles.size());
         pool.for_each(tiles.size(), [&](std::size_t i) {
             if (!shown[i]) return;
             expose(*trees[i], *world, level_of_stage, image, corrections[i]);
-            if (filtered && is_known(tiles[i])) remember(i, image, !corrections[i].empty());
+            if (filtered && is_known(tiles[i])) remember(i, image, !corrections[i].radiance.empty());
         });
     }
 }

@@ -6,6 +6,7 @@
 
 #include "render/level_edges.h"
 #include "render/level_lens.h"
+#include "render/lens_sampler.h"
 
 namespace crescente::render {
 namespace {
@@ -68,7 +69,7 @@ private:
         return !tile_.shows_pixels() || (!tile_.pixels.empty() && tile_.pixels_stage >= 0);
     }
     bool is_blank() const {
-        return tile_.nodes.empty() && tile_.lens_samples.empty() && tile_.lens_estimates.empty() && tile_.lens_pixels.empty() && !tile_.lens_piloted && tile_.shares.empty() && tile_.filtered.empty() && tile_.straight.empty() && tile_.pending.empty() && tile_.growing.empty() &&
+        return tile_.nodes.empty() && tile_.lens_samples.empty() && tile_.lens_estimates.empty() && tile_.lens_pixels.empty() && tile_.lens_clear.empty() && !tile_.lens_piloted && tile_.shares.empty() && tile_.filtered.empty() && tile_.straight.empty() && tile_.pending.empty() && tile_.growing.empty() &&
                tile_.quads.empty() && tile_.quads_before.empty() && tile_.subpixel_roots.empty() && tile_.todo.empty() && tile_.stage == 0 && tile_.cursor == 0;
     }
 
@@ -151,14 +152,17 @@ private:
         const bool begun = !tile_.lens_samples.empty();
         const std::size_t count = begun ? lens_pixels_of(tile_, world_.scene.settings).count() : 0;
         if (begun && !world_.lens) return false;
-        if (tile_.lens_samples.size() != count || tile_.lens_pixels.size() != (begun ? pixel_count() : 0) || tile_.lens_estimates.size() != count * estimate_groups(world_)) return false;
+        const std::size_t columns = begun ? LensColumns(world_).count() : 0;
+        if (tile_.lens_samples.size() != count || tile_.lens_pixels.size() != (begun ? pixel_count() : 0) || tile_.lens_estimates.size() != count * columns) return false;
+        if (tile_.lens_clear.size() != (begun && world_.lens->apart ? pixel_count() : 0)) return false;
         if (!begun) return !tile_.lens_piloted && (!world_.lens || tile_.stage <= first_stage_after(scene::Level::edges));
         const auto most = tile_.lens_piloted ? std::numeric_limits<std::uint16_t>::max() : pilot;
         const auto least = tile_.stage > first_stage_after(scene::Level::edges) ? 1u : 0u;
         const auto samples_hold = [&](std::uint16_t samples) { return samples >= least && samples <= most; };
         return std::all_of(tile_.lens_samples.begin(), tile_.lens_samples.end(), samples_hold) &&
                std::all_of(tile_.lens_estimates.begin(), tile_.lens_estimates.end(), sums_hold) &&
-               std::all_of(tile_.lens_pixels.begin(), tile_.lens_pixels.end(), [](Rgb light) { return math::is_finite(light); });
+               std::all_of(tile_.lens_pixels.begin(), tile_.lens_pixels.end(), [](Rgb light) { return math::is_finite(light); }) &&
+               std::all_of(tile_.lens_clear.begin(), tile_.lens_clear.end(), [](float clear) { return std::isfinite(clear); });
     }
     static bool sums_hold(const Estimate& e) { return math::is_finite(e.diffuse) && math::is_finite(e.glossy); }
 

@@ -57,17 +57,4 @@ std::vector<CameraProblem> camera_problems(const Camera& camera) {
     return problems;
 }
 
-std::optional<CameraProblem> lens_problem(const Scene& scene) {
-    if (!scene.camera || scene.settings.level <= Level::edges) return {};
-    const Camera& camera = *scene.camera;
-    const bool takes_time = camera.shutter_close > camera.shutter_open;
-    const bool moves = takes_time && (camera.moves() || std::any_of(scene.nodes.begin(), scene.nodes.end(), [](const Node& node) { return node.motion.has_value(); }));
-    if (camera.aperture == 0 && !moves) return {};
-    const std::string place = camera.aperture > 0 ? "/aperture" : "/shutter_close", with = camera.aperture > 0 ? "a lens" : "motion";
-    if (scene.environment && scene.environment->transparent) return CameraProblem{place, "a picture with " + with + " has no alpha channel yet: the environment cannot be transparent"};
-    const auto catches = [](const Material& m) { const auto* model = std::get_if<PhysicalMaterial>(&m.model); return model && model->catcher; };
-    if (std::any_of(scene.materials.begin(), scene.materials.end(), catches)) return CameraProblem{place, "a picture with " + with + " cannot show catchers of shadows yet"};
-    return {};
-}
-
 }  // namespace crescente::scene

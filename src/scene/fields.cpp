@@ -28,7 +28,7 @@ const FieldTable<PhysicalMaterial>& PhysicalMaterial::fields() {
         field(&M::metallic, {"metallic", FieldType::number, "", 0, 1, "0: dielectric, 1: metal"}),
         field(&M::roughness, {"roughness", FieldType::number, "", 0, 1, "0: mirror-like, 1: matt"}),
         field(&M::emissive, {"emissive", FieldType::color, "", 0, unbounded, "Radiance of its own"}),
-        field(&M::ior, {"ior", FieldType::number, "", 1, 10, "Index of refraction"}),
+        field(&M::ior, {"ior", FieldType::number, "", 0, 10, "Index of refraction, 1 or more; 0: infinite, the surface of a dielectric reflects all light, times `specular` and `specular_color`"}),
         field(&M::transmission, {"transmission", FieldType::number, "", 0, 1, "Share of light that enters and is refracted"}),
         field(&M::dispersion, {"dispersion", FieldType::number, "", 0, 10, "How much the index differs between blue and red: 20 over the Abbe number; levels that sample show it"}),
         field(&M::attenuation, {"attenuation", FieldType::color, "1/m", 0, unbounded, "Absorption inside the material"}),

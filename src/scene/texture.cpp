@@ -71,4 +71,10 @@ std::vector<std::string> texture_targets(const Material& material) {
     return names;
 }
 
+bool asks_for_tangents(const Material& material) {
+    const auto bends = [](const TextureBinding& b) { return b.target == "normal" || b.target == "clearcoat_normal"; };
+    const auto* m = std::get_if<PhysicalMaterial>(&material.model);
+    return (m && m->anisotropy > 0) || std::any_of(material.textures.begin(), material.textures.end(), bends);
+}
+
 }  // namespace crescente::scene

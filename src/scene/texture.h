@@ -68,4 +68,7 @@ const FieldInfo* textured_field(const Material& material, std::string_view targe
 // Names of everything that a texture of this material may act on.
 std::vector<std::string> texture_targets(const Material& material);
 
+// Whether it bends normals, or has a grain, by the directions in which coordinates grow: meshes should have smooth tangents for it (geometry/mesh_tangents.h).
+bool asks_for_tangents(const Material& material);
+
 }  // namespace crescente::scene

@@ -63,11 +63,10 @@ private:
         }
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) check_light(scene_.lights[i], "/lights/" + key_of(scene_.lights[i].name, i));
         check_light_groups();
-        if (const auto problem = lens_problem(scene_)) add("/camera" + problem->place, problem->reason);
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             const std::string place = "/materials/" + key_of(scene_.materials[i].name, i);
             std::visit([&](const auto& model) { check_fields(model, place); }, scene_.materials[i].model);
-            if (const auto* m = std::get_if<PhysicalMaterial>(&scene_.materials[i].model)) check_grain(*m, place);
+            if (const auto* m = std::get_if<PhysicalMaterial>(&scene_.materials[i].model)) check_grain(*m, place), check_index(*m, place);
             for (const TextureBinding& binding : scene_.materials[i].textures) check_texture(scene_.materials[i], binding, place + "/textures/" + escaped(binding.target));
         }
     }
@@ -90,6 +89,10 @@ private:
     void check_grain(const PhysicalMaterial& m, const std::string& place) {
         const double l = length(m.grain_axis);
         if (is_finite(m.grain_axis) && !(l > 0 && std::isfinite(l))) add(place + "/grain_axis", "has no direction");
+    }
+
+    void check_index(const PhysicalMaterial& m, const std::string& place) {
+        if (m.ior > 0 && m.ior < 1) add(place + "/ior", "is " + number_text(m.ior) + ", must be 1 or more, or 0 for infinite");
     }
 
     void check_texture(const Material& material, const TextureBinding& binding, const std::string& place) {

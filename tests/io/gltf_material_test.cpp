@@ -1,5 +1,7 @@
 // Materials of glTF files: factors, extensions, pictures.
 #include "gltf_made.h"
+#include "io/openimageio.h"
+#include "scene/validate.h"
 
 namespace crescente::io {
 namespace {
@@ -79,16 +81,38 @@ TEST(Gltf, PicturesAreSharedAndThoseThatAreNotReadAreNamed) {
     Made made;
     made.accessor(square, 5126, "VEC3", 3);
     const auto loaded = read(made.glb(
-        R"("images":[{"bufferView":0,"mimeType":"image/png"},{"bufferView":0,"mimeType":"image/png"}],"textures":[{"source":0},{"source":1},{"extensions":{"EXT_texture_webp":{"source":0}}},{"extensions":{"KHR_texture_basisu":{"source":0}}}],)"
+        R"("images":[{"bufferView":0,"mimeType":"image/png"},{"bufferView":0,"mimeType":"image/png"}],"textures":[{"source":0},{"source":1},{"extensions":{"EXT_texture_webp":{"source":1}}},{"extensions":{"KHR_texture_basisu":{"source":0}}}],)"
         R"("materials":[{"normalTexture":{"index":0},"emissiveFactor":[1,1,1],"emissiveTexture":{"index":1}},{"normalTexture":{"index":2},"occlusionTexture":{"index":3}}],)" +
         mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0},{"attributes":{"POSITION":0},"mode":6,"material":1})")));
     ASSERT_TRUE(loaded) << loaded.error().text();
     const scene::Material& m = loaded->scene.materials[0];
     EXPECT_EQ(texture(m, "normal").image, texture(m, "emissive").image) << "two images, one piece of a buffer";
     const bool told = std::any_of(loaded->warnings.begin(), loaded->warnings.end(), [](const Problem& p) {
-        return p.reason.find("EXT_texture_webp (WebP)") != std::string::npos && p.reason.find("KHR_texture_basisu (KTX2, Basis Universal)") != std::string::npos;
+        return (p.reason.find("EXT_texture_webp (WebP)") == std::string::npos) == has_openimageio() && p.reason.find("KHR_texture_basisu (KTX2, Basis Universal)") != std::string::npos;
     });
     EXPECT_TRUE(told);
+    if (has_openimageio()) {
+        EXPECT_EQ(texture(loaded->scene.materials[1], "normal").image, texture(m, "normal").image) << "WebP";
+    }
+}
+
+TEST(Gltf, KtxIsNamed) {
+    Made made;
+    made.accessor(square, 5126, "VEC3", 3);
+    const auto refused = read(made.glb(R"("extensionsRequired":["KHR_texture_basisu"],)" + mesh_with(R"({"attributes":{"POSITION":0},"mode":6})")));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().text().find("KTX2"), std::string::npos) << refused.error().text();
+}
+
+// KHR_materials_ior: 0 stands for infinite, and is kept.
+TEST(Gltf, InfiniteIndex) {
+    Made made;
+    made.accessor(square, 5126, "VEC3", 3);
+    const auto loaded = read(made.glb(R"("materials":[{"extensions":{"KHR_materials_ior":{"ior":0},"KHR_materials_specular":{"specularColorFactor":[0.9,0.2,0.1]}}}],)" +
+                                      mesh_with(R"({"attributes":{"POSITION":0},"mode":6,"material":0})")));
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(physical(loaded->scene, 0).ior, 0);
+    EXPECT_TRUE(scene::validate(loaded->scene, "made.glb").empty());
 }
 
 }  // namespace

@@ -62,6 +62,41 @@ TEST(MeshFile, MtlBecomesPhysical) {
     EXPECT_EQ(physical(loaded->scene, 3).emissive, (math::Rgb{5, 4, 3}));
 }
 
+// What a normal map bends, it bends along tangents that are smooth across triangles: files of this kind repeat a vertex for each of its corners.
+TEST(MeshFile, NormalMapsGetSmoothTangents) {
+    REQUIRE_ASSIMP;
+    const auto folder = std::filesystem::path(testing::TempDir()) / "crescente_tangents";
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "a.mtl") << "newmtl bent\nKd 1 1 1\nnorm bumps.png\nnewmtl plain\nKd 1 1 1\nmap_Kd bumps.png\n";
+    const std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 1\nv 0 1 0\nv 1 1 0\nv 2 1 1\nvt 0 0\nvt 0.5 0\nvt 1 0\nvt 0 1\nvt 0.5 1\nvt 1 1\n"
+                            "vn 0 0 1\nvn -0.4 0 0.9\nvn -0.7 0 0.7\n";
+    const std::string faces = "f 1/1/1 2/2/2 5/5/2 4/4/1\nf 2/2/2 3/3/3 6/6/3 5/5/2\n";
+    const auto loaded = read_mesh(obj + "o a\nusemtl bent\n" + faces + "o b\nusemtl plain\n" + faces, "a.obj", folder);
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    std::size_t with = 0, without = 0;
+    for (const auto& shape : loaded->scene.shapes) {
+        const auto& mesh = std::get<geometry::Mesh>(shape.shape);
+        if (mesh.tangents.empty()) {
+            ++without;
+            continue;
+        }
+        ++with;
+        ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
+        EXPECT_EQ(mesh.positions.size(), 6u) << "corners that are alike are one";
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const auto& t = mesh.tangents[i];
+            const math::Vec3 tangent{t[0], t[1], t[2]}, normal{mesh.normals[i][0], mesh.normals[i][1], mesh.normals[i][2]};
+            EXPECT_NEAR(length(tangent), 1, 1e-5);
+            EXPECT_NEAR(dot(tangent, normal), 0, 1e-5);
+            EXPECT_NEAR(t[1], 0, 1e-5);
+            EXPECT_GT(t[0], 0.5);
+            EXPECT_EQ(t[3], 1);
+        }
+    }
+    EXPECT_EQ(with, 1u);
+    EXPECT_EQ(without, 1u);
+}
+
 TEST(MeshFile, FilesElsewhereAreNotRead) {
     REQUIRE_ASSIMP;
     const auto folder = std::filesystem::path(testing::TempDir()) / "crescente_inside";

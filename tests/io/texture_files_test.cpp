@@ -94,6 +94,15 @@ TEST_F(TextureFiles, ThatAreMissingOrBrokenAreTold) {
     expect_part(told("data:;base64," + io::encode_base64("no picture")), "scene.json");
 }
 
+TEST_F(TextureFiles, WebpIsReadAndKtxIsNamed) {
+    NEEDS_PICTURES;
+    const auto loaded = scene_with("data:image/webp;base64,UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA");
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    EXPECT_EQ(loaded->scene.materials[0].textures.at(0).texture.image->width(), 1);
+    put("oak.ktx2", std::string("\xabKTX 20\xbb\r\n\x1a\n and more", 21));
+    expect_part(told("oak.ktx2"), "is in KTX2 (Basis Universal, KHR_texture_basisu)");
+}
+
 TEST_F(TextureFiles, ThatAreMissingAreReplacedWhereThatIsAsked) {
     NEEDS_PICTURES;
     const auto loaded = scene_with("oak.png", true);

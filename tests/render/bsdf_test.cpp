@@ -1,15 +1,11 @@
 // Scattering of light by materials, and the directions drawn from it: energy, reciprocity, and that the densities are those of the sampler.
 #include "render/bsdf.h"
 
-#include "render/scenes.h"
+#include "render/furnace.h"
 #include "render/thin_film.h"
-#include "scene/material_library.h"
 
 namespace crescente::render::testing {
 namespace {
-
-Vec3 direction(double theta, double phi) { return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)}; }
-const Vec3 up{0, 0, 1};
 
 struct Named {
     std::string name;
@@ -101,21 +97,6 @@ std::vector<Named> white() {
 
 const std::vector<double> views{0.01, 0.6, 1.1, 1.4, 1.54};
 
-// Calls with n evenly spread triples of numbers (Kronecker's sequence of the powers of the root of x^4 = x + 1; Roberts 2018).
-void for_each_draw(int n, const std::function<void(std::array<double, 3>)>& draw) {
-    for (int i = 1; i <= n; ++i) draw({std::fmod(i * 0.8191725133961645, 1), std::fmod(i * 0.6710436067037893, 1), std::fmod(i * 0.5497004779019703, 1)});
-}
-
-// What comes back from a furnace where light of strength 1 is everywhere.
-double furnace(const Lobes& lobes, double theta, bool inside) {
-    constexpr int n = 8000;
-    double sum = 0;
-    for_each_draw(n, [&](std::array<double, 3> u) {
-        if (const auto s = sample_scatter(lobes, {up, up, inside}, direction(theta, 0.4), u, true)) sum += (s->value.diffuse.g + s->value.glossy.g) / s->value.pdf;
-    });
-    return sum / n;
-}
-
 TEST(Bsdf, GivesBackNoMoreThanItGets) {
     for (const Named& m : white()) {
         for (const bool inside : {false, true}) {
@@ -169,7 +150,7 @@ TEST(Bsdf, LayersOverWhiteLoseLittle) {
                                          finished("metal", one, 1, roughness, [](PhysicalMaterial& m) { m.clearcoat = 1; }),
                                          finished("metal, velvet", one, 1, roughness, [](PhysicalMaterial& m) { m.sheen_color = gray(0.8f); })};
         for (const Named& m : layered) {
-            const double least = m.name.starts_with("film") ? 0.85 : m.name.starts_with("metal") ? 0.9 : 0.96;  // coloured; facets are under the more of both ends
+            const double least = m.name.starts_with("film") ? 0.85 : 0.96;  // coloured
             for (const double view : views) {
                 const double back = furnace(m.lobes, view, false);
                 EXPECT_LE(back, 1.006) << m.name << " " << view;
@@ -227,15 +208,6 @@ TEST(Bsdf, ClothSendsBackWhatTheSumsSay) {
     for (const double roughness : {0.3, 0.6, 1.0}) {
         const Lobes cloth = finished("", {}, 0, 1, [=](PhysicalMaterial& m) { m.sheen_color = one, m.sheen_roughness = roughness, m.specular = 0; }).lobes;
         for (const double theta : {0.2, 0.9, 1.4}) EXPECT_NEAR(furnace(cloth, theta, false), sheen_reflectance(cloth, std::cos(theta)), 0.01) << roughness << " " << theta;
-    }
-}
-
-TEST(Bsdf, TheLibraryAddsNoLight) {
-    for (const scene::LibraryMaterial& m : scene::material_library()) {
-        const Lobes lobes = compile({m.name, m.material});
-        for (const double view : {0.01, 0.9, 1.4}) {
-            for (int side = 0; side < (m.material.transmission > 0 ? 2 : 1); ++side) EXPECT_LE(furnace(lobes, view, side == 1), 1.006) << m.name << " " << view;
-        }
     }
 }
 

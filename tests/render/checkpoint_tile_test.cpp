@@ -182,8 +182,13 @@ TEST(TileCheck, PixelsSeenThroughALens) {
     EXPECT_EQ(problem([](Tile& t) { forget_samples(t); }), do_not_fit);
     const auto unsampled = std::count_if(stages.begin(), stages.end(), [](const Stage& stage) { return stage.level <= scene::Level::edges; });
     EXPECT_EQ(problem([&](Tile& t) { forget_samples(t), t.stage = static_cast<int>(unsampled); }), "");
+    EXPECT_EQ(problem([](Tile& t) { t.lens_clear.assign(t.lens_pixels.size(), 0); }), do_not_fit) << "the picture keeps no alpha";
     scene.camera->aperture = 0;
     EXPECT_EQ(tile_problem(whole, **world_of(scene), stages), do_not_fit) << "the world is seen through a pinhole";
+    scene.camera->aperture = 0.1;
+    if (!scene.environment) scene.environment.emplace();
+    scene.environment->transparent = true;
+    EXPECT_EQ(tile_problem(whole, **world_of(scene), stages), do_not_fit) << "it keeps alpha";
 }
 
 TEST(TileCheck, ATreeIsATreeAndSeesSomething) {

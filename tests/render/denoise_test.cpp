@@ -59,6 +59,61 @@ TEST(Denoise, NearerToTheTruth) {
     }
 }
 
+// A ball and a slab, whose soft shadows and blurred images are all that is seen of the ground, under a panel, a lamp and an even sky.
+Scene on_catcher(int samples, bool transparent) {
+    Build b(64, 48);
+    b.settings().level = scene::Level::indirect, b.settings().samples = samples, b.settings().noise = 0.0001, b.settings().threads = 2;
+    b.settings().supersampling = 1, b.settings().tile = 32;
+    b.camera().position = {0, 2, 5}, b.camera().target = {0, 0.4, 0};
+    PhysicalMaterial ground, matt;
+    ground.catcher = true, ground.base_color = gray(0.6f), ground.roughness = 0.25;
+    matt.base_color = {0.7f, 0.5f, 0.3f}, matt.roughness = 1;
+    b.place(geometry::Plane{}, b.material(ground));
+    b.place(sphere(0.6), b.material(matt), at({-0.7, 0.6, 0}));
+    b.place(box({0.4, 0, -0.3}, {1.3, 0.9, 0.1}), b.material(matt));
+    scene::Light& panel = b.light();
+    panel.kind = scene::LightKind::rectangle, panel.position = {2.5, 2.8, 1}, panel.direction = {-1, -1.2, -0.4}, panel.intensity = 12, panel.visible = false;
+    b.light().position = {-3, 3, 3}, b.scene.lights.back().intensity = 6;
+    b.uniform_environment({0.4f, 0.5f, 0.6f}, 1);
+    b.scene.environment->transparent = transparent, b.scene.environment->backdrop = !transparent;
+    b.scene.environment->backdrop_top = {0.3f, 0.5f, 0.9f}, b.scene.environment->backdrop_bottom = {0.9f, 0.8f, 0.7f};
+    return b.scene;
+}
+
+// Root mean square of what alpha is off, or where there is none, the color.
+double error_of_shadows(const scene::Image& image, const scene::Image& reference) {
+    const std::size_t channels = image.layers[0].channels.size();
+    double sum = 0;
+    for (std::size_t i = channels - 1; i < image.layers[0].values.size(); i += channels) {
+        const double d = image.layers[0].values[i] - reference.layers[0].values[i];
+        sum += d * d;
+    }
+    return std::sqrt(sum * static_cast<double>(channels) / static_cast<double>(image.layers[0].values.size()));
+}
+
+// Shadows on catchers are filtered as light is, in the picture's alpha too.
+TEST(Denoise, ShadowsOnCatchers) {
+    for (const bool transparent : {true, false}) {
+        const scene::Image reference = picture_with(on_catcher(1024, transparent), Denoise::off);
+        double before = 1;
+        for (const auto& [samples, gain] : {std::pair{1, 0.75}, {4, 0.8}, {16, 0.9}, {64, 1.3}}) {
+            const scene::Image noisy = picture_with(on_catcher(samples, transparent), Denoise::off), clean = picture_with(on_catcher(samples, transparent), Denoise::filter);
+            const double raw = error_of_shadows(noisy, reference), filtered = error_of_shadows(clean, reference);
+            EXPECT_LT(filtered, gain * raw) << samples << (transparent ? ", alpha " : ", color ") << raw;
+            EXPECT_LT(filtered, before) << samples;
+            before = filtered;
+        }
+    }
+}
+
+TEST(Denoise, NothingIsLeftOfItOnCatchersWithoutNoise) {
+    for (const bool transparent : {true, false}) {
+        Scene scene = on_catcher(1024, transparent);
+        scene.settings.noise = 0.2;
+        EXPECT_TRUE(same_picture(picture_with(scene, Denoise::off), picture_with(scene, Denoise::filter)));
+    }
+}
+
 // What has the samples that it wants is shown as it is.
 TEST(Denoise, NothingIsLeftOfItWithoutNoise) {
     Scene scene = room(1024);
@@ -136,7 +191,8 @@ TEST(Outdated, PictureIsNearlyThereEarly) {
 
 // Light on the grid: noise of the given deviation about what `truth` says, all of one surface but where `surface` says otherwise.
 GuidedGrid noisy_grid(int size, float deviation, const std::function<float(int, int)>& truth, const std::function<std::uint32_t(int, int)>& surface) {
-    GuidedGrid grid{size, size, {}, {}};
+    GuidedGrid grid;
+    grid.width = grid.height = size;
     Random random(3);
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {

@@ -226,6 +226,14 @@ Scene start(std::uint64_t seed) {
     scene.settings.denoise = random.chance(0.5) ? scene::Denoise::off : scene::Denoise::filter;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) scene.nodes[i].name = "n" + std::to_string(i % 4);  // some share a name
     scene.settings.samples = 1 + static_cast<int>(random.below(40)), scene.settings.noise = random.uniform(0.02, 0.5);
+    if (seed % 8 == 3) {  // a lens that sees catchers, and what is behind them apart
+        scene.camera->aperture = random.uniform(0.05, 0.5), scene.camera->focus_distance = random.uniform(1, 9);
+        PhysicalMaterial ground;
+        ground.catcher = true, ground.roughness = random.uniform(0, 1), ground.opacity = random.chance(0.3) ? 0.5 : 1;
+        scene.materials[random.below(scene.materials.size())].model = ground;
+        if (!scene.environment) scene.environment.emplace();
+        scene.environment->transparent = random.chance(0.7);
+    }
     for (scene::Material& m : scene.materials) {  // bodies that absorb begin anew at most edits: not in every script
         if (auto* classic = std::get_if<ClassicMaterial>(&m.model); classic && seed % 6 != 0) classic->attenuation = {};
     }

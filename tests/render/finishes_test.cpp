@@ -118,7 +118,8 @@ TEST(Finishes, CoatsDoNotFollowTheFlakesBelow) {
         const Facing facing{normal, point.geometric, false};
         for (int k = 0; k < 50; ++k) {
             const auto s = sample_scatter(lobes, facing, v, {random.uniform(), random.uniform(), random.uniform()}, true);
-            if (s && s->delta) EXPECT_NEAR(dot(s->direction + v, point.geometric), length(s->direction + v), 1e-6);  // mirrored by the coat's normal
+            if (!s || !s->delta) continue;
+            EXPECT_NEAR(dot(s->direction + v, point.geometric), length(s->direction + v), 1e-6);  // mirrored by the coat's normal
         }
         const Lobes afar = paint.lobes_at(ball.at(point.geometric, 0.1));
         EXPECT_GT(afar.alpha, 0.3f) << "seen from afar: the root of twice the variance of the slopes";

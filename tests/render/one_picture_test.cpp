@@ -63,6 +63,12 @@ TEST(OnePicture, ThroughALens) {
     scene.camera->aperture = 0.3, scene.camera->travel = {0.1, 0, 0};
     scene.nodes[0].motion = at({0, 0.4, 0});
     expect_one_picture(scene);
+    PhysicalMaterial catcher;
+    catcher.catcher = true, catcher.roughness = 0.3;
+    scene.materials[0].model = catcher;
+    if (!scene.environment) scene.environment.emplace();
+    scene.environment->transparent = true;
+    expect_one_picture(scene);
 }
 
 TEST(OnePicture, StillLife) { expect_one_picture(still_life()); }

@@ -237,15 +237,6 @@ TEST(Validate, DeepHierarchy) {
     EXPECT_TRUE(problems[0].place.starts_with("/objects/.../children/")) << problems[0].place;
 }
 
-TEST(Validate, LensWithoutAlpha) {
-    const auto through_a_lens = [](Scene& s) { s.settings.level = Level::soft, s.camera->aperture = 0.01; };
-    const auto catches = [](Scene& s) { s.materials.push_back({"ground", PhysicalMaterial{.catcher = true}}); };
-    EXPECT_EQ(problems_after([&](Scene& s) { through_a_lens(s), catches(s); }).size(), 1u);
-    EXPECT_EQ(problems_after([&](Scene& s) { through_a_lens(s), s.environment = Environment{.transparent = true}; }).size(), 1u);
-    EXPECT_TRUE(problems_after([&](Scene& s) { through_a_lens(s), catches(s), s.settings.level = Level::edges; }).empty()) << "a pinhole";
-    EXPECT_TRUE(problems_after([&](Scene& s) { s.settings.level = Level::soft, catches(s), s.camera->shutter_close = 1; }).empty()) << "nothing moves";
-}
-
 TEST(Validate, AllProblemsAtOnce) {
     const Problems problems = problems_after([](Scene& s) {
         s.settings.width = -1;

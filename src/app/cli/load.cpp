@@ -4,7 +4,6 @@
 
 #include "io/overrides.h"
 #include "io/panorama_file.h"
-#include "scene/camera_check.h"
 #include "scene/studio.h"
 #include "scene/validate.h"
 
@@ -96,7 +95,6 @@ Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& op
     if (const auto furnished = furnish(request, scene); !furnished) return tl::unexpected<Error>(furnished.error());
     const bool asked = !request.lens.fields.empty() || request.lens.focus_on_middle;
     if (const auto seen = asked ? look_through_lens(request, scene) : Expected<void>{}; !seen) return tl::unexpected<Error>(seen.error());
-    if (auto problem = scene::lens_problem(scene)) return failure(ErrorKind::usage, {request.file, "/camera" + problem->place, std::move(problem->reason), ""});
     return loaded;
 }
 
