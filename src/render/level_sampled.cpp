@@ -99,9 +99,13 @@ private:
 
     // One sample of each after the other, so that neighbours are traced together. Whether there was time for all.
     bool sample_chunk(const Deadline& deadline) {
-        chunk_points_.clear();
-        chunk_lobes_.resize(chunk_.size());
-        for (std::size_t k = 0; k < chunk_.size(); ++k) chunk_points_.push_back(point_of(chunk_[k], chunk_lobes_[k]));
+        chunk_points_.clear(), surfaces_.clear();
+        chunk_lobes_.resize(chunk_.size()), surfaces_.reserve(chunk_.size());
+        for (std::size_t k = 0; k < chunk_.size(); ++k) {
+            SamplePoint point = point_of(chunk_[k], chunk_lobes_[k]);
+            point.surface = &surfaces_.emplace_back(*point.lobes, point.facing, point.to_viewer, SmoothAs::nothing);
+            chunk_points_.push_back(point);
+        }
         while (true) {
             wanting_.clear(), points_.clear();
             for (std::size_t k = 0; k < chunk_.size(); ++k) {
@@ -164,6 +168,7 @@ private:
     std::vector<std::uint32_t> chunk_, wanting_;
     std::vector<SamplePoint> chunk_points_, points_;
     std::vector<Lobes> chunk_lobes_;  // of textured materials
+    std::vector<Scattering> surfaces_;
     std::vector<SampledLight> light_;
 };
 
