@@ -19,7 +19,8 @@ constexpr std::size_t most_looked_at = 16 * chunk_size;  // nodes, for those of 
 std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
     std::vector<Stage> stages;
     int before = 0;
-    for (int bound = 1; before < settings.samples; bound *= 4) {
+    // From one sample at once to as many as tell of their noise; then so that halfway through a round the picture is not much worse than if all nodes had the same number.
+    for (int bound = 1; before < settings.samples; bound = bound == 1 ? static_cast<int>(fewest_to_tell) : 2 * bound) {
         const int samples = std::min(bound, settings.samples);
         stages.push_back({level, double(samples), double(samples - before)});
         before = samples;
