@@ -1,4 +1,4 @@
-// How a surface scatters light between any two directions, and directions drawn by it: what levels that sample ask of a material. The levels before them
+// How a surface scatters light between any two directions, and directions drawn by it: what levels that sample ask of a material (render/scattering.h). The levels before them
 // use the same lobes for lights without extent (reflect_light) and perfectly smooth rays (child_weights).
 //
 // All values are of radiance over the square of the index of refraction, as the weights of refracted rays are: light that crosses a surface twice needs no
@@ -24,12 +24,12 @@ struct Facing {
 
 struct Scattered {
     Rgb diffuse, glossy;  // radiance to the viewer per unit of radiance and solid angle: f times |cosine|, of each part, coloured
-    double pdf = 0;       // density (1/sr) of sample_scatter for the direction
+    double pdf = 0;       // density (1/sr) of drawing the direction
 };
 
 struct ScatterSample {
     Vec3 direction;   // unit, away from the surface
-    Scattered value;  // not delta: as scatter() says. Delta: the weight of the ray itself, and the chance of being drawn
+    Scattered value;  // not delta: as Scattering::toward() says. Delta: the weight of the ray itself, and the chance of being drawn
     Part part;        // of the lobe that drew it
     bool delta;       // of a perfectly smooth lobe: one direction, no density
     bool crosses;     // it goes on behind the surface
@@ -40,6 +40,7 @@ struct Smooth {
     bool reflects = false, refracts = false;
 };
 Smooth smooth_lobes(const Lobes& lobes);
+Smooth smooth_facets(const Lobes& lobes);  // the same of what disperses, as if it did not
 
 // Whether the material bends light of each colour by another angle (Lobes::dispersion): its refraction is drawn as rough ones are, one band of the spectrum at a time.
 bool disperses(const Lobes& lobes);
@@ -56,19 +57,8 @@ inline ChildWeights smooth_weights(const Lobes& lobes, double cosine, bool insid
 Vec3 mirrored_direction(const Facing& facing, Vec3 to_viewer);             // lifted to just above the surface
 Vec3 refracted_direction(const Facing& facing, Vec3 to_viewer, double eta);  // eta: index in front over index behind; no total reflection
 
-// What the lobes that are not perfectly smooth send to the viewer of light from `to_light` (both unit, away from the surface; the light may be behind it).
-// Zero where the viewer does not see the front of both normals, or the normals disagree about the light's side. Classic materials: as reflect_light, over pi
-// (classic lights without extent are given in units of which pi make a lux). with_delta: the density is that of drawing with smooth lobes as well.
-Scattered scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, Vec3 to_light, bool with_delta = false);
-
 // What a composed physical material (a metal by its constants, a coat) sends to the viewer of a light without extent: as scatter, but smooth lobes as highlights, and
 // without the geometric normal.
 Rgb reflect_composed(const Lobes& lobes, Vec3 normal, Vec3 to_viewer, Vec3 to_light, bool with_highlight);
-
-// What disperses draws its refracted ray, as one of a smooth lobe, without with_delta too.
-//
-// A direction drawn about as the material reflects and transmits, from three numbers in [0, 1): the first chooses the lobe, the others the direction. Nothing
-// if there is nothing to draw, or the drawn direction gives nothing.
-std::optional<ScatterSample> sample_scatter(const Lobes& lobes, const Facing& facing, Vec3 to_viewer, std::array<double, 3> u, bool with_delta);
 
 }  // namespace crescente::render

@@ -15,8 +15,6 @@ namespace {
 std::uint32_t packed(float a, float b) { return (std::bit_cast<std::uint32_t>(a) & 0xffff0000) | std::bit_cast<std::uint32_t>(b) >> 16; }
 Spread unpacked(std::uint32_t v) { return {std::bit_cast<float>(v & 0xffff0000), std::bit_cast<float>(v << 16)}; }
 
-constexpr std::uint32_t fewest_to_tell = 4;  // samples
-
 // While the pilot is under way, or with its last sample.
 Spread spread_so_far(const Estimate& estimate, std::uint32_t samples) {
     const auto count = static_cast<float>(samples);

@@ -24,6 +24,7 @@ static_assert(sizeof(Estimate) == 28);
 // The first samples of every node: they show how many more it needs (two-stage sampling after Stein 1945, "A Two-Sample Test for a Linear Hypothesis Whose
 // Power is Independent of the Variance"). What they showed is kept, so that an edit that keeps samples comes to the decisions of a fresh render.
 inline constexpr std::uint32_t pilot = 16;
+inline constexpr std::uint32_t fewest_to_tell = 4;  // how noisy they are, before
 
 // Groups that estimates are kept for: those of World::emitters, and one for the light of all lamps without extent that comes by way of other surfaces.
 std::size_t estimate_groups(const World& world);

@@ -75,7 +75,7 @@ void LensSampler::sample(std::span<const PixelSample> pixels, std::span<SampledL
         for (; i < by_moment.size() && by_moment[i].first == moment; ++i) chosen.push_back(by_moment[i].second);
         const World& world = world_.moments ? world_.moments->at(world_, moment) : world_;
         start(pixels, chosen, moment);
-        points_.clear(), weights_.clear(), textured_.clear();
+        points_.clear(), weights_.clear(), textured_.clear(), surfaces_.clear();
         for (int depth = 0; !paths_.empty(); ++depth) step(world, pixels, depth);
         const std::size_t groups = columns_.groups, columns = columns_.count();
         point_light_.resize(points_.size() * groups);
@@ -159,6 +159,7 @@ void LensSampler::step(const World& world, std::span<const PixelSample> pixels, 
             point.to_viewer = -ray.direction;
             point.offset = at.offset[i];
             point.lobes = lobes;
+            point.surface = &surfaces_.emplace_back(*lobes, point.facing, point.to_viewer, SmoothAs::nothing);
             point.catches = lobes->catcher && path.sender == no_instance;
             path.length += hit.t;
             point.path = path.length;

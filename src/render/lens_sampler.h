@@ -93,6 +93,7 @@ private:
     std::vector<SamplePoint> points_;
     std::vector<Weight> weights_;   // beside points_
     std::deque<Lobes> textured_;    // that points_ look at
+    std::deque<Scattering> surfaces_;  // likewise
     std::vector<SampledLight> point_light_;
     std::vector<std::unique_ptr<PathSampler>> samplers_;  // by moment, made when asked for
 };

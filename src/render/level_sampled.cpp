@@ -19,7 +19,8 @@ constexpr std::size_t most_looked_at = 16 * chunk_size;  // nodes, for those of 
 std::vector<Stage> rounds(scene::Level level, const scene::Settings& settings) {
     std::vector<Stage> stages;
     int before = 0;
-    for (int bound = 1; before < settings.samples; bound *= 4) {
+    // From one sample at once to as many as tell of their noise; then so that halfway through a round the picture is not much worse than if all nodes had the same number.
+    for (int bound = 1; before < settings.samples; bound = bound == 1 ? static_cast<int>(fewest_to_tell) : 2 * bound) {
         const int samples = std::min(bound, settings.samples);
         stages.push_back({level, double(samples), double(samples - before)});
         before = samples;
@@ -99,9 +100,13 @@ private:
 
     // One sample of each after the other, so that neighbours are traced together. Whether there was time for all.
     bool sample_chunk(const Deadline& deadline) {
-        chunk_points_.clear();
-        chunk_lobes_.resize(chunk_.size());
-        for (std::size_t k = 0; k < chunk_.size(); ++k) chunk_points_.push_back(point_of(chunk_[k], chunk_lobes_[k]));
+        chunk_points_.clear(), surfaces_.clear();
+        chunk_lobes_.resize(chunk_.size()), surfaces_.reserve(chunk_.size());
+        for (std::size_t k = 0; k < chunk_.size(); ++k) {
+            SamplePoint point = point_of(chunk_[k], chunk_lobes_[k]);
+            point.surface = &surfaces_.emplace_back(*point.lobes, point.facing, point.to_viewer, SmoothAs::nothing);
+            chunk_points_.push_back(point);
+        }
         while (true) {
             wanting_.clear(), points_.clear();
             for (std::size_t k = 0; k < chunk_.size(); ++k) {
@@ -164,6 +169,7 @@ private:
     std::vector<std::uint32_t> chunk_, wanting_;
     std::vector<SamplePoint> chunk_points_, points_;
     std::vector<Lobes> chunk_lobes_;  // of textured materials
+    std::vector<Scattering> surfaces_;
     std::vector<SampledLight> light_;
 };
 

@@ -65,80 +65,75 @@ PathSampler::PathSampler(const World& world, RayCounts& rays, TestCounts& tests)
       counts_(rays),
       tests_(tests),
       groups_(world.emitters.groups()),
+      has_lamps_(std::any_of(world.lights.begin(), world.lights.end(), [](const Light& light) { return !light.is_sampled(); })),
       goes_on_(settings_.level >= scene::Level::indirect) {}
 
 void PathSampler::sample(std::span<const SamplePoint> points, std::span<SampledLight> light) {
     points_ = points, light_ = light;
     std::fill(light_.begin(), light_.end(), SampledLight{});
-    begin(points);
+    paths_.clear(), rays_.clear();
+    for (std::uint32_t i = 0; i < points.size(); ++i) begin(i);
     trace_connections();
     while (!paths_.empty()) {
-        step(points);
+        step();
         trace_connections();
     }
 }
 
-// The point as paths meet it: of what disperses, in the band that this sample has.
-PathSampler::Start PathSampler::start_of(const SamplePoint& p) {
-    Start start{{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches}, {1, 1, 1}, 0};
-    if (!disperses(*p.lobes)) return start;
-    const int band = chosen_band(p, 0);
-    banded_ = in_band(*p.lobes, band);
-    start.vertex.lobes = &banded_, start.colors = only_band(band), start.band = static_cast<std::uint8_t>(band + 1);
-    return start;
-}
+// Light of the groups at a point itself, and the first direction that its material draws.
+void PathSampler::begin(std::uint32_t index) {
+    const SamplePoint& p = points_[index];
+    Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches};
+    const Scattering* surface = p.surface;
+    Rgb colors{1, 1, 1};
+    std::uint8_t band = 0;
+    std::optional<Scattering> in_this_band;
+    if (disperses(*p.lobes)) {
+        band = static_cast<std::uint8_t>(chosen_band(p, 0) + 1);
+        banded_ = in_band(*p.lobes, band - 1), colors = only_band(band - 1);
+        vertex.lobes = &banded_, surface = &in_this_band.emplace(banded_, p.facing, p.to_viewer, SmoothAs::nothing);
+    }
 
-// Light of the groups at the points themselves, and the first directions that their materials draw.
-void PathSampler::begin(std::span<const SamplePoint> points) {
-    paths_.clear(), rays_.clear();
     const std::size_t sampled = std::min(groups_, groups_at_once);
     const double chance = groups_ == 0 ? 0 : static_cast<double>(sampled) / static_cast<double>(groups_);
     for (std::size_t k = 0; k < sampled; ++k) {
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const SamplePoint& p = points[i];
-            const auto [vertex, colors, band] = start_of(p);
-            const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
-            const auto u = numbers(p, 0, Use::first_light, group);
-            if (const auto arrived = sample_group(vertex, group, chance, false, false, {u[0], u[1], u[2]})) {
-                if (p.catches) add_unshadowed(i, group, arrived->value.diffuse * arrived->light * colors);
-                queue(vertex, *arrived, {i, static_cast<std::uint32_t>(group), arrived->value.diffuse * arrived->light * colors, {}, p.path, arrived->share,
-                                 arrived->value.glossy * arrived->light * colors});
-            }
-        }
-    }
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const SamplePoint& p = points[i];
-        if (!p.lamps) continue;
-        const Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches};
-        const auto arrived = sample_lamp(vertex, numbers(p, 0, Use::lamp)[0]);
+        const std::size_t group = (p.key % groups_ + p.index * sampled + k) % groups_;
+        const auto u = numbers(p, 0, Use::first_light, group);
+        const auto arrived = sample_group(vertex, *surface, group, chance, false, {u[0], u[1], u[2]});
         if (!arrived) continue;
-        if (p.catches) add_unshadowed(i, groups_, arrived->light);
-        queue(vertex, *arrived, {i, static_cast<std::uint32_t>(groups_), p.catches ? arrived->light : Rgb{}, p.catches ? Rgb{} : arrived->light, p.path, 1, {}, true});
+        const Rgb light = arrived->light * colors;
+        if (p.catches) add_unshadowed(index, group, arrived->value.diffuse * light);
+        queue(vertex, *arrived, {index, static_cast<std::uint32_t>(group), arrived->value.diffuse * light, {}, p.path, arrived->share, arrived->value.glossy * light});
     }
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const SamplePoint& p = points[i];
-        const auto u = numbers(p, 0, Use::scatter);
-        const Start at = start_of(p);
-        const auto s = sample_scatter(*at.vertex.lobes, p.facing, p.to_viewer, {u[2], u[0], u[1]}, false);
-        if (!s) continue;
-        Path path{};
-        path.point = i;
-        const Rgb diffuse = p.catches ? gray(cosine_of(p.facing, s->direction)) : s->value.diffuse;
-        path.diffuse = over(diffuse, s->value.pdf), path.glossy = over(s->value.glossy, s->value.pdf);
-        path.diffuse *= at.colors, path.glossy *= at.colors, path.band = at.band;
-        path.throughput = path.throughput_on = {1, 1, 1};
-        path.from = p.position, path.sender = p.instance, path.length = p.path;
-        path.pdf = s->delta ? 0 : s->value.pdf;
-        path.sharp = path.clear = s->delta;
-        path.chance = chance;
-        path.scattered = s->part == Part::diffuse;
-        paths_.push_back(path);
-        rays_.push_back(ray_from(at.vertex, s->direction));
-    }
+    if (p.lamps) begin_at_lamp(index, {p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches});
+
+    const auto u = numbers(p, 0, Use::scatter);
+    const auto s = surface->sample({u[2], u[0], u[1]});
+    if (!s) return;
+    Path path{};
+    path.point = index;
+    const Rgb diffuse = p.catches ? gray(cosine_of(p.facing, s->direction)) : s->value.diffuse;
+    path.diffuse = over(diffuse, s->value.pdf) * colors, path.glossy = over(s->value.glossy, s->value.pdf) * colors, path.band = band;
+    path.throughput = path.throughput_on = {1, 1, 1};
+    path.from = p.position, path.sender = p.instance, path.length = p.path;
+    path.pdf = s->delta ? 0 : s->value.pdf;
+    path.sharp = path.clear = s->delta;
+    path.chance = chance;
+    path.scattered = s->part == Part::diffuse;
+    paths_.push_back(path);
+    rays_.push_back(ray_from(vertex, s->direction));
+}
+
+void PathSampler::begin_at_lamp(std::uint32_t index, const Vertex& vertex) {
+    const SamplePoint& p = points_[index];
+    const auto arrived = sample_lamp(vertex, numbers(p, 0, Use::lamp)[0]);
+    if (!arrived) return;
+    if (p.catches) add_unshadowed(index, groups_, arrived->light);
+    queue(vertex, *arrived, {index, static_cast<std::uint32_t>(groups_), p.catches ? arrived->light : Rgb{}, p.catches ? Rgb{} : arrived->light, p.path, 1, {}, true});
 }
 
 // Traces the paths' rays, and finds how each goes on.
-void PathSampler::step(std::span<const SamplePoint> points) {
+void PathSampler::step() {
     hits_.resize(rays_.size());
     accel::TestCounts counts;
     world_.accelerator->nearest(rays_, hits_, Coherence::incoherent, counts);
@@ -155,7 +150,7 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             Path path = paths_[block + i];
             const Ray& ray = rays_[block + i];
             const Hit& hit = hits_[block + i];
-            if (path.depth == 0 && points[path.point].catches) {
+            if (path.depth == 0 && points_[path.point].catches) {
                 catch_all(path, ray);
                 Path direct = path;
                 direct.glossy = {};  // objects alone are mirrored
@@ -181,12 +176,12 @@ void PathSampler::step(std::span<const SamplePoint> points) {
             }
             if (const auto emitted = world_.emitters.surface(hit.instance, hit.primitive, material, vertex.position, path.from)) {
                 const Rgb texture = textured ? emission_factor(lobes, plain) : Rgb{1, 1, 1};
-                if (path.depth == 0 && points[path.point].catches) take_caught(path, *emitted, texture);
+                if (path.depth == 0 && points_[path.point].catches) take_caught(path, *emitted, texture);
                 else take(path, *emitted, texture);
             }
             if (!goes_on_ && path.depth == 0) path.diffuse = {};
             path.throughput = path.throughput_on;
-            if (max_component((path.diffuse + path.glossy) * path.throughput) > 0) go_on(vertex, path, points[path.point]);
+            if (max_component((path.diffuse + path.glossy) * path.throughput) > 0) go_on(vertex, path, points_[path.point]);
         }
     }
     std::swap(paths_, next_), std::swap(rays_, next_rays_);
@@ -240,11 +235,12 @@ void PathSampler::go_on(Vertex vertex, Path path, const SamplePoint& point) {
         vertex.lobes = &banded_;
     }
     const bool last = depth >= settings_.depth;
+    const Scattering surface(*vertex.lobes, vertex.facing, vertex.to_viewer, SmoothAs::rays);
     const auto scatter_numbers = numbers(point, depth, Use::scatter);
     if (groups_ > 0) {
         const auto u = numbers(point, depth, Use::light);
         const auto group = std::min(static_cast<std::size_t>(u[3] * static_cast<double>(groups_)), groups_ - 1);
-        if (const auto arrived = sample_group(vertex, group, 1.0 / static_cast<double>(groups_), true, last, {u[0], u[1], u[2]})) {
+        if (const auto arrived = sample_group(vertex, surface, group, 1.0 / static_cast<double>(groups_), last, {u[0], u[1], u[2]})) {
             const Rgb light = path.throughput * arrived->light, spread = light * arrived->value.diffuse, sharp = light * arrived->value.glossy;
             const Rgb for_diffuse = bends(*vertex.lobes) && !settings_.caustics ? spread : spread + sharp;
             queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(group), path.diffuse * for_diffuse,
@@ -252,7 +248,7 @@ void PathSampler::go_on(Vertex vertex, Path path, const SamplePoint& point) {
                                      path.scattered_later ? Rgb{} : path.glossy * sharp});
         }
     }
-    if (const auto arrived = sample_lamp(vertex, numbers(point, depth, Use::lamp)[0])) {
+    if (const auto arrived = has_lamps_ ? sample_lamp(vertex, numbers(point, depth, Use::lamp)[0]) : std::nullopt) {
         const Rgb light = path.throughput * arrived->light;
         queue(vertex, *arrived, {path.point, static_cast<std::uint32_t>(groups_), path.diffuse * light, path.glossy * light, vertex.path, 1, {}});
     }
@@ -262,7 +258,7 @@ void PathSampler::go_on(Vertex vertex, Path path, const SamplePoint& point) {
         if (scatter_numbers[3] >= survival) return;
         path.throughput = over(path.throughput, survival);
     }
-    const auto s = sample_scatter(*vertex.lobes, vertex.facing, vertex.to_viewer, {scatter_numbers[2], scatter_numbers[0], scatter_numbers[1]}, true);
+    const auto s = surface.sample({scatter_numbers[2], scatter_numbers[0], scatter_numbers[1]});
     if (!s) return;
     const Rgb all = over(s->value.diffuse + s->value.glossy, s->value.pdf);
     path.throughput_on = path.throughput * (goes_on_ || s->delta ? all : over(s->value.glossy, s->value.pdf));
@@ -282,11 +278,11 @@ void PathSampler::go_on(Vertex vertex, Path path, const SamplePoint& point) {
 }
 
 // A direction to a group, weighed against the directions that the material draws. chance: that the group is sampled here. last: no direction is drawn here.
-std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const {
+std::optional<PathSampler::Arrived> PathSampler::sample_group(const Vertex& v, const Scattering& surface, std::size_t group, double chance, bool last, const std::array<double, 3>& u) const {
     if (!world_.emitters.acts_on(group, v.instance)) return std::nullopt;
     const auto sample = world_.emitters.sample(group, v.position, u);
     if (!sample || !(sample->pdf > 0)) return std::nullopt;
-    Arrived arrived{scatter(*v.lobes, v.facing, v.to_viewer, sample->direction, with_delta), sample->direction, sample->distance, {}};
+    Arrived arrived{surface.toward(sample->direction), sample->direction, sample->distance, {}};
     if (!world_.emitters.makes_highlights(group)) arrived.value.glossy = {};
     if (v.catches) arrived.value.diffuse = gray(cosine_of(v.facing, sample->direction)), arrived.value.glossy = {};
     if (is_black(arrived.value.diffuse) && is_black(arrived.value.glossy)) return std::nullopt;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "accel/accelerator.h"
-#include "render/bsdf.h"
 #include "render/counts.h"
+#include "render/scattering.h"
 #include "render/world.h"
 
 namespace crescente::render {
@@ -22,6 +22,7 @@ struct SamplePoint {
     Vec3 to_viewer;
     double offset = 0;   // how far from position, along the geometric normal, rays may start
     const Lobes* lobes = nullptr;
+    const Scattering* surface = nullptr;  // of these, SmoothAs::nothing
     bool catches = false;     // as render/catcher.h says: only light that is kept off, and other objects' light that it mirrors, are wanted
     double path = 0;          // length of the way from the camera, m
     std::uint32_t instance = no_instance;  // whose surface it is
@@ -86,11 +87,6 @@ private:
         std::uint32_t instance;
         bool catches = false;
     };
-    struct Start {  // of the paths of a point
-        Vertex vertex;
-        Rgb colors;
-        std::uint8_t band = 0;  // as Path::band, with the colours that are followed for all
-    };
     struct Arrived {  // light of a group at a vertex, and what this sends back of it
         Scattered value;
         Vec3 direction;
@@ -98,14 +94,14 @@ private:
         Rgb light;
         double share = 1;  // counted in `light`: the rest is left to directions that the material draws
     };
-    Start start_of(const SamplePoint& point);
-    void begin(std::span<const SamplePoint> points);
-    void step(std::span<const SamplePoint> points);
+    void begin(std::uint32_t point);
+    void begin_at_lamp(std::uint32_t point, const Vertex& vertex);
+    void step();
     void meet_lights(const Path& path, const geometry::Ray& ray, const accel::Hit& hit);
     void take(const Path& path, const Emitted& emitted, Rgb texture = {1, 1, 1});
     void take_caught(const Path& path, const Emitted& emitted, Rgb texture);
     void go_on(Vertex vertex, Path path, const SamplePoint& point);
-    std::optional<Arrived> sample_group(const Vertex& vertex, std::size_t group, double chance, bool with_delta, bool last, const std::array<double, 3>& u) const;
+    std::optional<Arrived> sample_group(const Vertex& vertex, const Scattering& surface, std::size_t group, double chance, bool last, const std::array<double, 3>& u) const;
     std::optional<Arrived> sample_lamp(const Vertex& vertex, double u);
     void queue(const Vertex& vertex, const Arrived& arrived, const Connection& connection);
     void trace_connections();
@@ -121,6 +117,7 @@ private:
     RayCounts& counts_;
     TestCounts& tests_;
     const std::size_t groups_;
+    const bool has_lamps_;  // without extent
     const bool goes_on_;  // diffuse light comes from other surfaces too
     std::span<const SamplePoint> points_;
     std::span<SampledLight> light_;

@@ -2,6 +2,7 @@
 #include "render/bsdf.h"
 
 #include "render/furnace.h"
+#include "render/scatter.h"
 #include "render/thin_film.h"
 
 namespace crescente::render::testing {

@@ -1,7 +1,7 @@
 // Finishes that are not the same all over: grain, flakes, coats with normals of their own, cloth, light that glass spreads by its colour; and the library's textures.
 #include "geometry/mesh_tangents.h"
-#include "render/bsdf.h"
 #include "render/grain.h"
+#include "render/scatter.h"
 #include "render/scenes.h"
 #include "render/texture_procedures.h"
 #include "render/textured_material.h"

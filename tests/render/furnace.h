@@ -1,7 +1,7 @@
 // What materials send back of light that is everywhere.
 #pragma once
 
-#include "render/bsdf.h"
+#include "render/scatter.h"
 #include "render/scenes.h"
 
 namespace crescente::render::testing {
