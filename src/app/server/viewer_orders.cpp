@@ -52,7 +52,7 @@ void Viewer::Work::carry_out(Message message) {
     if (const auto* files = std::get_if<ListFiles>(&request)) return list_files(message.id, files->folder);
     if (const auto* until = std::get_if<GrowUntil>(&request); until && !session_) {
         wanted_level_ = until->level;
-        return say_.text(edited_reply({}, {}, message.id));
+        return say_.text(edited_reply({}, edit_state(), message.id));
     }
     if (const auto* pause = std::get_if<Pause>(&request)) {
         paused_ = pause->paused;
@@ -179,7 +179,7 @@ void Viewer::Work::apply(const Message& message, std::vector<scene::Edit> edits)
     const auto report = history_.edit(*session_, std::move(edits), {}, message.gesture);
     if (!report) return say_error(report.error(), message.id);
     after_edit(*report, parts);
-    say_.text(edited_reply(*report, {history_.undoable(), history_.redoable()}, message.id));
+    say_.text(edited_reply(*report, edit_state(), message.id));
 }
 
 void Viewer::Work::edit(Message& message, const io::Json& json) {
@@ -209,7 +209,7 @@ void Viewer::Work::walk_history(const MessageId& id, int times, bool undo) {
     }
     after_edit(whole, SceneParts::all());
     keep_view();
-    say_.text(edited_reply(whole, {history_.undoable(), history_.redoable()}, id));
+    say_.text(edited_reply(whole, edit_state(), id));
 }
 
 Expected<render::EditReport> Viewer::Work::change_unseen(std::vector<scene::Edit> edits) {
@@ -263,7 +263,7 @@ void Viewer::Work::set_until(const MessageId& id, scene::Level level) {
     if (!report) return say_error(report.error(), id);
     if (begun) fresh_from_ = begun;  // it is still a fresh picture that grows
     untold_.settings = true;
-    say_.text(edited_reply(*report, {history_.undoable(), history_.redoable()}, id));
+    say_.text(edited_reply(*report, edit_state(), id));
 }
 
 void Viewer::Work::set_studio(const Message& message, const std::optional<std::string>& name) {

@@ -131,7 +131,8 @@ void Viewer::Work::show() {
 
 void Viewer::Work::tell_scene() {
     if (!session_ || !say_.page || !untold_.any() || say_.backlog() > most_backlog) return;
-    ReplyJson json = scene_json(session_->scene(), std::exchange(untold_, {}));
+    if (opened_) told_objects_.forget();
+    ReplyJson json = scene_json(session_->scene(), std::exchange(untold_, {}), told_objects_);
     if (std::exchange(opened_, false)) json["opened"] = true;
     json["file"] = title_;
     json["revision"] = revision_;

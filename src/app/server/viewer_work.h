@@ -52,6 +52,7 @@ private:
     void apply(const Message& message, std::vector<scene::Edit> edits);
     Expected<render::EditReport> change_unseen(std::vector<scene::Edit> edits);  // what undo does not take back
     void keep_view();
+    EditState edit_state() const { return {history_.undoable(), history_.redoable(), revision_}; }
     void after_edit(const render::EditReport& report, const SceneParts& parts);
     void open(const std::string& file, const MessageId& id);
     void note_sources(io::ShapeSources sources);
@@ -90,6 +91,7 @@ private:
 
     bool opened_ = false;                 // the page does not know the scene that is open at all
     SceneParts untold_;                   // parts of the scene that the page does not know as they are
+    ToldObjects told_objects_;
     bool progress_untold_ = false;
     double grown_seconds_ = 0;            // since the edit
     std::uint64_t rays_before_ = 0, camera_rays_before_ = 0, tiles_before_ = 0;  // at the edit

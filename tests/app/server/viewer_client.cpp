@@ -1,5 +1,6 @@
 #include "app/server/viewer_client.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -109,7 +110,7 @@ Client::Client(const Server& server, const std::string& session) {
     socket_.next_layer().set_option(tcp::no_delay(true));
     socket_.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
         request.set(http::field::origin, "http://" + server.host());
-        request.set(http::field::sec_websocket_protocol, "crescente.1");
+        request.set(http::field::sec_websocket_protocol, "crescente.2");
     }));
     socket_.read_message_max(std::size_t{1} << 28);
     socket_.handshake(server.host(), "/socket?token=" + server.token() + (session.empty() ? "" : "&session=" + session));
@@ -117,6 +118,20 @@ Client::Client(const Server& server, const std::string& session) {
         auto first = next();
         if (auto* text = std::get_if<Json>(&first)) welcome_ = std::move(*text);
     }
+}
+
+// As a page does: what was changed of the objects goes into those that are there.
+void Client::take_scene(const Json& news) {
+    scene_.update(news);
+    scene_.erase("changed");
+    scene_.erase("gone");
+    const auto place = [&](const Json& index) { return std::find_if(scene_["objects"].begin(), scene_["objects"].end(), [&](const Json& one) { return one["index"] == index; }); };
+    for (const Json& object : news.value("changed", Json::array())) {
+        if (const auto at = place(object["index"]); at != scene_["objects"].end()) at->update(object);
+        else scene_["objects"].push_back(object);
+    }
+    for (const Json& index : news.value("gone", Json::array())) scene_["objects"].erase(place(index));
+    told_objects += news.value("objects", Json::array()).size() + news.value("changed", Json::array()).size();
 }
 
 void Client::send_text(const std::string& text) {
@@ -187,7 +202,7 @@ std::variant<Client::Json, FrameHeader> Client::next() {
         return frame;
     }
     Json json = Json::parse(bytes);
-    if (json.contains("scene")) scene_.update(json["scene"]);
+    if (json.contains("scene")) take_scene(json["scene"]);
     if (json.contains("progress")) progress_ = json["progress"];
     return json;
 }

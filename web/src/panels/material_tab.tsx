@@ -7,7 +7,7 @@ import { fieldsOfMaterial } from '../protocol/fields';
 import type { LibraryMaterial, Named } from '../protocol/messages';
 import { setMaterialField } from '../state/edits';
 import { applyLibrary, applyMaterial, dragOfLibrary, dragOfMaterial } from '../state/materials';
-import { useStore } from '../state/store';
+import { get, useStore } from '../state/store';
 import { materialOf } from '../state/tree';
 import { GroupedFields, type FieldGroup } from './fields/grouped_fields';
 import { useDrag } from './fields/use_drag';
@@ -89,7 +89,7 @@ const Library = memo(function Library() {
 });
 
 function MaterialEditor({ material, index, lengthUnit }: { material: Named; index: number; lengthUnit: string }) {
-  const onChange = useDrag((field, value) => setMaterialField(index, field, value), (field) => `${material.name || 'Material'}: ${field.replaceAll('_', ' ')}`);
+  const onChange = useDrag((field, value) => setMaterialField(index, field, value), (field) => `${material.name || 'Material'}: ${field.replaceAll('_', ' ')}`, () => get().scene?.materials[index]);
   const fields = fieldsOfMaterial(material);
   const textures = material.textures && typeof material.textures === 'object' ? Object.keys(material.textures) : [];
   return (

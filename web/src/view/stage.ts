@@ -20,6 +20,7 @@ import type { Camera, Scene } from '../protocol/messages';
 
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
+const handleReach = 90; // CSS pixels
 
 // What of the state is drawn over the picture.
 const drawnFrom = ({ scene, selection, hovered, tool, light, snap, rightOpen, rightTab }: Store) => [scene?.objects, scene?.lights, scene?.bounds, selection, hovered, tool, light, snap, rightOpen, rightTab];
@@ -133,6 +134,12 @@ export class Stage {
     if (box.isEmpty() && scene.bounds) box.copy(boxOf(scene.bounds));
     this.navigation.fit(box, freeShare(this.element));
     this.wake();
+  }
+
+  // The nearest place at the same depth that no panel covers, with room about it for the handles of what stands there.
+  intoSight(place: Vector3): Vector3 {
+    const share = freeShare(this.element);
+    return this.navigation.intoView(place, { width: share.width - (2 * handleReach) / this.size.width, height: share.height - (2 * handleReach) / this.size.height });
   }
 
   look(from: StandardView): void {
