@@ -240,18 +240,22 @@ void Viewer::Work::take_view() {
 }
 
 // The newest camera, once the picture of the one before is whole: so that a drag shows every camera that it takes.
-void Viewer::Work::take_look() {
-    if (!look_ || !session_) return;
-    if (!progress_.first_picture && !whole_first_) return;
+bool Viewer::Work::take_look() {
+    if (!look_ || !session_) return false;
+    if (!progress_.first_picture && !whole_first_) return false;
     Look look = std::move(*look_);
     look_.reset();
     auto edits = io::read_edit(edit_of("camera", std::move(look.camera)), session_->scene(), {});
-    if (!edits) return say_error(edits.error(), {});
+    if (!edits) {
+        say_error(edits.error(), {});
+        return false;
+    }
     looks_ = look.number;
     unshown_ = true;
-    if (edits->empty()) return;
+    if (edits->empty()) return false;
     frames_.begin_picture();
     if (const auto changed = change_unseen(std::move(*edits)); !changed) say_error(changed.error(), {});
+    return true;
 }
 
 void Viewer::Work::set_until(const MessageId& id, scene::Level level) {

@@ -27,7 +27,7 @@ private:
     bool has_work(Clock::time_point now) const;
     Clock::time_point wake_time() const;
     void grow();
-    void show();
+    void show(bool quick);
     void tell_progress();
     void tell_scene();
     ReplyJson progress_json(const render::Stats& stats, double rays_per_second) const;
@@ -41,7 +41,7 @@ private:
     void attach(std::uint32_t page);
     void carry_out(Message message);
     void take_view();
-    void take_look();
+    bool take_look();  // whether there was one
     void edit(Message& message, const io::Json& json);
     void walk_history(const MessageId& id, int times, bool undo);
     void set_until(const MessageId& id, scene::Level level);

@@ -50,7 +50,10 @@ export class Navigation {
 
   // Moves on by so many seconds; true while there is motion.
   step(seconds: number): boolean {
-    return this.controls.update(seconds);
+    const moving = this.controls.update(seconds);
+    // Turned about a point aside, the camera is put beside it along the axes that it had before the turn: once more, along those of now.
+    if (this.controls.getFocalOffset(new Vector3(), false).lengthSq() > 0) this.controls.update(0);
+    return moving;
   }
 
   resize(aspect: number): void {

@@ -21,6 +21,7 @@ import type { Camera, Scene } from '../protocol/messages';
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
 const handleReach = 90; // CSS pixels
+const usualFrame = 1 / 60; // seconds
 
 // What of the state is drawn over the picture.
 const drawnFrom = ({ scene, selection, hovered, tool, light, snap, rightOpen, rightTab }: Store) => [scene?.objects, scene?.lights, scene?.bounds, selection, hovered, tool, light, snap, rightOpen, rightTab];
@@ -40,7 +41,7 @@ export class Stage {
   private size = { width: 1, height: 1 };
   private looks = 0;
   private cameras = new Map<number, WholeCamera>(); // by the number of `look`s
-  private told: string | null = null;
+  private told: WholeCamera | null = null;
   private request = 0;
   private time = 0;
 
@@ -153,7 +154,8 @@ export class Stage {
 
   private beat(now: number): void {
     this.request = 0;
-    const seconds = this.time === 0 ? 0 : Math.min((now - this.time) / 1000, 0.1);
+    // What begins to move does so in this very frame.
+    const seconds = this.time === 0 ? usualFrame : Math.min((now - this.time) / 1000, 0.1);
     const state = get();
     if (state.turntable) this.navigation.turn(turntableDegreesPerSecond * seconds, 0, false);
     const moving = this.navigation.step(seconds);
@@ -169,14 +171,13 @@ export class Stage {
     if (this.time !== 0) this.wake();
   }
 
-  // Tells the program a camera that it does not know yet.
+  // Tells the program a camera that it does not know yet. One that differs by less than can be seen, as motion does that comes to its end, is none.
   private tellCamera(): void {
     if (!get().scene) return;
     const camera = this.navigation.get();
-    const text = JSON.stringify(camera);
-    if (text === this.told) return;
+    if (this.told && sameCamera(this.told, camera)) return;
     if (!send({ look: camera })) return;
-    this.told = text;
+    this.told = camera;
     this.cameras.set(++this.looks, camera);
   }
 
@@ -217,7 +218,7 @@ export class Stage {
     // Until the camera is moved, the picture is seen by the one of the scene.
     const camera = this.navigation.get();
     this.cameras.set(this.looks, camera);
-    this.told = JSON.stringify(camera);
+    this.told = camera;
     this.makeRoom(scene);
     set({ orthographic: scene.camera.projection === 'orthographic' });
     this.refresh(state);
