@@ -77,12 +77,12 @@ test('the size of a light, which makes shadows soft, is stepped by keys and drag
   await expect.poll(() => valueOf(page, 'Height')).not.toBeCloseTo(height, 3);
 });
 
-for (const view of ['front', 'back', 'top', 'left', 'isometric']) {
+for (const [view, key] of [['the back', '2'], ['the left', '4'], ['above', '5'], ['the corner', '0']]) {
   test(`a new light stands where the panels leave the picture free, seen from ${view}`, async ({ page, start }) => {
     await visit(page, await start());
     await growTo(page, 'visible');
-    await page.getByRole('button', { name: 'Views' }).click();
-    await page.getByRole('menuitem', { name: new RegExp(`^${view}`, 'i') }).click();
+    await page.getByTestId('stage').focus();
+    await page.keyboard.press(key);
     await page.waitForTimeout(1000); // the turn comes to its end
     for (const kind of [/^Spot/, /^Point/]) {
       await addLight(page, kind);

@@ -45,7 +45,7 @@ export class Stage {
   private request = 0;
   private time = 0;
 
-  constructor(private readonly element: HTMLElement, cubePlace: HTMLElement) {
+  constructor(private readonly element: HTMLElement, private readonly cubePlace: HTMLElement) {
     this.picture = new Picture((frame) => {
       send({ shown: frame.number });
       for (const look of this.cameras.keys()) if (look < frame.look) this.cameras.delete(look);
@@ -137,10 +137,17 @@ export class Stage {
     this.wake();
   }
 
-  // The nearest place at the same depth that no panel covers, with room about it for the handles of what stands there.
+  // The nearest place at the same depth that neither a panel nor the cube covers, with room about it for the handles of what stands there.
   intoSight(place: Vector3): Vector3 {
     const share = freeShare(this.element);
-    return this.navigation.intoView(place, { width: share.width - (2 * handleReach) / this.size.width, height: share.height - (2 * handleReach) / this.size.height });
+    const room = { width: share.width - (2 * handleReach) / this.size.width, height: share.height - (2 * handleReach) / this.size.height };
+    const seen = this.navigation.intoView(place, room);
+    const { x, y } = seen.clone().project(this.navigation.camera);
+    const cube = this.cubePlace.getBoundingClientRect();
+    const view = this.element.getBoundingClientRect();
+    const left = ((cube.left - view.left - handleReach / 2) / view.width) * 2 - 1;
+    const bottom = 1 - ((cube.bottom - view.top + handleReach / 2) / view.height) * 2;
+    return x > left && y > bottom ? this.navigation.intoView(seen, { ...room, width: left }) : seen;
   }
 
   look(from: StandardView): void {
