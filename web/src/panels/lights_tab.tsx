@@ -78,7 +78,7 @@ const LightRow = memo(function LightRow({ light, index, chosen }: { light: Named
   return (
     <div className="row" role="listitem" data-chosen={chosen}>
       <button type="button" className="choose" aria-pressed={chosen} onClick={choose}>
-        <span style={{ width: 12, height: 12, borderRadius: '50%', marginInline: 4, background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
+        <span style={{ width: '0.75rem', height: '0.75rem', borderRadius: '50%', marginInline: '0.25rem', background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
         <span className="name">{light.name || `Light ${index + 1}`}</span>
         <Text size="xs" c="dimmed">{labelOf(String(light.kind ?? 'point'))} · {short(Number(light.intensity ?? 1), 3)}</Text>
       </button>

@@ -95,7 +95,7 @@ function MaterialEditor({ material, index, lengthUnit }: { material: Named; inde
   return (
     <>
       <Group gap={8} mb={10} wrap="nowrap">
-        <span style={{ width: 22, height: 22, borderRadius: '50%', background: swatchOf(material).color, boxShadow: '0 0 0 1px var(--line)' }} />
+        <span style={{ width: '1.375rem', height: '1.375rem', borderRadius: '50%', background: swatchOf(material).color, boxShadow: '0 0 0 1px var(--line)' }} />
         <Text fw={600} size="sm" flex={1} truncate component="h3" title={material.name}>{material.name || `Material ${index}`}</Text>
         {material.model === 'classic' && <Badge size="sm" variant="default">classic</Badge>}
       </Group>

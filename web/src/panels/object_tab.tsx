@@ -49,14 +49,14 @@ export function ObjectTab() {
           <VectorBoxes value={degrees} label="Rotation" unit="degrees" onCommit={(axis, to) => place('degrees', axis, to)} />
         </div>
       </Stack>
-      <Group className="section" gap={6} grow>
-        <Button variant="default" size="xs" leftSection={<IconFocus2 size={15} />} onClick={() => theStage()?.fit()}>Fit</Button>
-        <Button variant="default" size="xs" leftSection={<IconSquareDashed size={15} />} onClick={() => void toggleIsolated()}>Isolate</Button>
-        <Button variant="default" size="xs" leftSection={<IconEyeOff size={15} />} onClick={hideSelection}>Hide</Button>
+      <Group className="section" gap={6} grow preventGrowOverflow={false} wrap="nowrap">
+        <Button variant="default" size="xs" px={8} leftSection={<IconFocus2 size={15} />} onClick={() => theStage()?.fit()}>Fit</Button>
+        <Button variant="default" size="xs" px={8} leftSection={<IconSquareDashed size={15} />} onClick={() => void toggleIsolated()}>Isolate</Button>
+        <Button variant="default" size="xs" px={8} leftSection={<IconEyeOff size={15} />} onClick={hideSelection}>Hide</Button>
       </Group>
       <Group className="section" gap={6} grow>
-        <Button variant="default" size="xs" leftSection={<IconCopy size={15} />} onClick={() => void duplicateSelection()}>Duplicate</Button>
-        <Button variant="default" size="xs" c="red" leftSection={<IconTrash size={15} />} onClick={() => void removeSelection()}>Delete</Button>
+        <Button variant="default" size="xs" px={8} leftSection={<IconCopy size={15} />} onClick={() => void duplicateSelection()}>Duplicate</Button>
+        <Button variant="default" size="xs" px={8} c="red" leftSection={<IconTrash size={15} />} onClick={() => void removeSelection()}>Delete</Button>
       </Group>
     </div>
   );
@@ -66,7 +66,7 @@ function describe(scene: Pick<Scene, 'objects' | 'unit'>, path: string): string 
   const object = objectAt(scene, leafOf(path));
   const box = worldBox(scene, path);
   const parts = [
-    object?.shape ?? `${object?.children.length ?? 0} parts`,
+    (object?.shape === 'brep' ? 'CAD part' : object?.shape) ?? `${object?.children.length ?? 0} parts`,
     object?.faces ? `${object.faces} faces` : object?.triangles ? `${object.triangles.toLocaleString('en')} triangles` : null,
     box && !box.isEmpty() ? `${box.max.clone().sub(box.min).toArray().map((x) => short(x, 3)).join(' × ')} ${scene.unit}` : null,
   ];

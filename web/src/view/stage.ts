@@ -20,7 +20,7 @@ import type { Camera, Scene } from '../protocol/messages';
 
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
-const handleReach = 90; // CSS pixels
+const handleReach = 0.12; // of the height of the view: what three's handles take to each side
 const usualFrame = 1 / 60; // seconds
 
 // What of the state is drawn over the picture.
@@ -140,13 +140,14 @@ export class Stage {
   // The nearest place at the same depth that neither a panel nor the cube covers, with room about it for the handles of what stands there.
   intoSight(place: Vector3): Vector3 {
     const share = freeShare(this.element);
-    const room = { width: share.width - (2 * handleReach) / this.size.width, height: share.height - (2 * handleReach) / this.size.height };
+    const reach = handleReach * this.size.height;
+    const room = { width: share.width - (2 * reach) / this.size.width, height: share.height - 2 * handleReach };
     const seen = this.navigation.intoView(place, room);
     const { x, y } = seen.clone().project(this.navigation.camera);
     const cube = this.cubePlace.getBoundingClientRect();
     const view = this.element.getBoundingClientRect();
-    const left = ((cube.left - view.left - handleReach / 2) / view.width) * 2 - 1;
-    const bottom = 1 - ((cube.bottom - view.top + handleReach / 2) / view.height) * 2;
+    const left = ((cube.left - view.left - reach / 2) / view.width) * 2 - 1;
+    const bottom = 1 - ((cube.bottom - view.top + reach / 2) / view.height) * 2;
     return x > left && y > bottom ? this.navigation.intoView(seen, { ...room, width: left }) : seen;
   }
 
