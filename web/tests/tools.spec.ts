@@ -123,8 +123,9 @@ test('studio, ground, surroundings and their turn, and each taken back', async (
   await changed();
   await page.getByText('None', { exact: true }).click();
   await changed();
-  await page.getByLabel('Surroundings').click();
-  await page.getByRole('option').nth(1).click();
+  // A picture of eight by four pixels, of another colour in each.
+  const sky = Buffer.concat([Buffer.from('#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n'), Buffer.from(Array.from({ length: 128 }, (_, i) => (i % 4 === 3 ? 129 : (i * 37) % 256)))]);
+  await page.getByLabel('Picture of surroundings').setInputFiles({ name: 'sky.hdr', mimeType: 'image/vnd.radiance', buffer: sky });
   await changed();
   const turn = page.getByTestId('slider-rotation').getByRole('slider');
   await turn.focus();
@@ -178,7 +179,7 @@ test('pictures of another size, with layers, and copied', async ({ page, context
     await page.getByRole('button', { name: 'Export picture' }).click();
     await page.getByTestId('export-width').fill('333');
     await page.getByTestId('export-height').fill('201');
-    await page.getByLabel('Format').click();
+    await page.getByRole('textbox', { name: 'Format' }).click();
     await page.getByRole('option', { name: format.toUpperCase() }).click();
     await page.getByTestId('export-start').click();
     await expect(page.getByTestId('export-item').last()).toHaveAttribute('data-done', 'true');
@@ -208,9 +209,20 @@ test('a model is dropped onto the page, and is there among the recent ones', asy
     transfer.items.add(new File([text], name, { type: 'application/step' }));
     return transfer;
   }, { text: readFileSync(model, 'latin1'), name: basename(model) });
-  for (const type of ['dragenter', 'dragover', 'drop']) await page.dispatchEvent('body', type, { dataTransfer: data });
+  await page.dispatchEvent('body', 'dragenter', { dataTransfer: data });
+  await expect(page.getByText('Drop to open')).toBeVisible();
+  await page.getByText('Drop to open').dispatchEvent('drop', { dataTransfer: data });
   await expect(page.getByTestId('stage')).toHaveAttribute('data-frames', /\d/);
   await expect(rows(page).filter({ hasText: 'plate' })).toBeVisible();
+
+  // What the program can read again, unlike an upload, is kept in mind.
+  await page.evaluate(() => sessionStorage.clear());
+  await page.goto((await start()).address);
+  await expect(page.getByTestId('stage')).toHaveAttribute('data-frames', /\d/);
+  await page.evaluate(() => sessionStorage.clear());
+  await page.goto((await start([])).address);
+  await page.getByRole('region', { name: 'Recent' }).getByRole('button', { name: basename(model) }).click();
+  await expect(page.getByTestId('stage')).toHaveAttribute('data-frames', /\d/);
 });
 
 test('two pages have a session each', async ({ page, context, start }) => {
