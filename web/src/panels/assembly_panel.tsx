@@ -22,7 +22,8 @@ export function AssemblyPanel() {
   const [active, setActive] = useState<string | null>(null);
   const parent = useRef<HTMLDivElement>(null);
   const rows = useMemo(() => (objects && roots ? rowsOf({ objects, roots }, expanded, search) : []), [objects, roots, expanded, search]);
-  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => parent.current, estimateSize: rowHeight, overscan: 8 });
+  const [height] = useState(rowHeight);
+  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => parent.current, estimateSize: () => height, overscan: 8 });
 
   // What was selected in the picture comes into sight.
   const last = selection[selection.length - 1];
