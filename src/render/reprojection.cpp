@@ -135,9 +135,10 @@ Grid seen_of(std::span<const SeenPoint> points, const Nearest& nearest, parallel
     return grid;
 }
 
+constexpr float about = 0.97f;  // as far as
+
 // In each square of four the mean of what is about as far as the farthest: what a moving camera lays bare lies behind what hid it.
 Grid coarser(const Grid& fine, parallel::Pool& pool) {
-    constexpr float about = 0.97f;
     Grid coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
     pool.for_each(static_cast<std::size_t>(coarse.height), [&](std::size_t row) {
         const int y = static_cast<int>(row);
@@ -166,6 +167,19 @@ Grid coarser(const Grid& fine, parallel::Pool& pool) {
     return coarse;
 }
 
+// A hole gets what is farthest of the four squares about its place, its own and those on the sides to which it lies: in its own there may be nothing but what stands before the hole.
+void fill_hole(Grid& fine, int x, int y, const Grid& coarse) {
+    const int own_x = x / 2, own_y = y / 2;
+    const int aside_x = std::clamp(own_x + (x & 1 ? 1 : -1), 0, coarse.width - 1), aside_y = std::clamp(own_y + (y & 1 ? 1 : -1), 0, coarse.height - 1);
+    std::size_t from = coarse.index(own_x, own_y);
+    for (const std::size_t other : {coarse.index(aside_x, own_y), coarse.index(own_x, aside_y), coarse.index(aside_x, aside_y)}) {
+        if (about * coarse.depths[other] > coarse.depths[from]) from = other;
+    }
+    const std::size_t hole = fine.index(x, y);
+    fine.colors[hole] = coarse.colors[from];
+    fine.depths[hole] = coarse.depths[from];
+}
+
 void fill_holes(Grid& grid, parallel::Pool& pool) {
     std::vector<Grid> coarse;
     for (const Grid* fine = &grid; fine->width > 1 || fine->height > 1; fine = &coarse.back()) coarse.push_back(coarser(*fine, pool));
@@ -174,7 +188,7 @@ void fill_holes(Grid& grid, parallel::Pool& pool) {
         pool.for_each(static_cast<std::size_t>(fine.height), [&](std::size_t row) {
             const int y = static_cast<int>(row);
             for (int x = 0; x < fine.width; ++x) {
-                if (!fine.is_known(fine.index(x, y))) fine.colors[fine.index(x, y)] = coarse[i].colors[coarse[i].index(x / 2, y / 2)];
+                if (!fine.is_known(fine.index(x, y))) fill_hole(fine, x, y, coarse[i]);
             }
         });
     }

@@ -10,23 +10,50 @@ const rounds = 60;
 
 type Watch = { begin: number; warped: number; drawn: number };
 
-// Notes, from each stamped event on, when the picture was moved or drawn next.
-const watch = (type: string) => {
-  const page = window as unknown as { watched: Watch; };
-  const canvas = document.querySelector<HTMLElement>('.picture');
-  const stage = document.querySelector<HTMLElement>('.stage');
+// Notes, from each stamped event on, when the picture was moved next, and when pixels were drawn that answer to it: a frame that is seen by the camera that the event led to, or one that came after
+// the program said that the edit is done. Frames that were under way before count for nothing.
+const watch = () => {
+  const page = window as unknown as { watched: Watch; watchFrom(type: string): void };
   const empty = () => ({ begin: 0, warped: 0, drawn: 0 });
   page.watched = empty();
-  window.addEventListener(type, (event) => {
-    page.watched = { ...empty(), begin: event.timeStamp };
-  }, true);
-  const note = (what: 'warped' | 'drawn') => () => {
+  let cameras = 0; // that were told
+  let wanted: (look: number, afterEdit: boolean) => boolean = () => false;
+  let edited = false;
+  const frames = new Map<number, [number, boolean]>();
+  const note = (what: 'warped' | 'drawn') => {
     const now = page.watched;
     if (now.begin > 0 && now[what] === 0) requestAnimationFrame((time) => { if (now[what] === 0) now[what] = Math.max(time, now.begin); });
   };
-  new MutationObserver(note('warped')).observe(canvas as Node, { attributeFilter: ['style'] });
-  new MutationObserver(note('drawn')).observe(stage as Node, { attributeFilter: ['data-frames'] });
+  const Socket = window.WebSocket;
+  window.WebSocket = class extends Socket {
+    constructor(url: string | URL, protocols?: string | string[]) {
+      super(url, protocols);
+      this.addEventListener('message', ({ data }: MessageEvent<string | ArrayBuffer>) => {
+        if (typeof data === 'string') edited ||= data.startsWith('{"edited"');
+        else frames.set(new DataView(data).getUint32(4, true), [new DataView(data).getUint32(8, true), edited]);
+      });
+    }
+    override send(data: string): void {
+      super.send(data);
+      if (data.startsWith('{"look"')) cameras++;
+      const shown = /^\{"shown":(\d+)/.exec(data);
+      const frame = shown && frames.get(Number(shown[1]));
+      if (frame && wanted(...frame)) note('drawn');
+    }
+  };
+  page.watchFrom = (type) => {
+    window.addEventListener(type, (event) => {
+      const next = cameras + 1;
+      edited = false;
+      frames.clear();
+      wanted = type === 'keydown' ? (_, afterEdit) => afterEdit : (look) => look >= next;
+      page.watched = { ...empty(), begin: event.timeStamp };
+    }, true);
+    new MutationObserver(() => note('warped')).observe(document.querySelector('.picture') as Node, { attributeFilter: ['style'] });
+  };
 };
+
+const watchFrom = (page: Page, type: string) => page.evaluate((event) => (window as unknown as { watchFrom(type: string): void }).watchFrom(event), type);
 
 const read = async (page: Page): Promise<Watch> => page.evaluate(() => ({ ...(window as unknown as { watched: Watch }).watched }));
 
@@ -47,10 +74,11 @@ function tell(what: string, times: number[]): void {
 test('latency', async ({ page }) => {
   const program = await Program.start([process.env.MODEL ?? model]);
   try {
+    await page.addInitScript(watch);
     await visit(page, program);
     await page.waitForTimeout(3000);
 
-    await page.evaluate(watch, 'pointermove');
+    await watchFrom(page, 'pointermove');
     await page.mouse.move(600, 400);
     await page.mouse.down();
     const warped: number[] = [];
@@ -70,7 +98,8 @@ test('latency', async ({ page }) => {
     await page.waitForTimeout(3000);
     const slider = page.getByTestId('slider-roughness').getByRole('slider');
     await slider.focus();
-    await page.evaluate(watch, 'keydown');
+    await page.mouse.move(640, 5); // away from the picture
+    await watchFrom(page, 'keydown');
     const edited: number[] = [];
     for (let i = 0; i < rounds; i++) {
       await page.keyboard.press(i % 20 < 10 ? 'ArrowRight' : 'ArrowLeft');

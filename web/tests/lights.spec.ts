@@ -76,3 +76,23 @@ test('the size of a light, which makes shadows soft, is stepped by keys and drag
   await drag(page, 'Height', 3, -30);
   await expect.poll(() => valueOf(page, 'Height')).not.toBeCloseTo(height, 3);
 });
+
+for (const [view, key] of [['the back', '2'], ['the left', '4'], ['above', '5'], ['the corner', '0']]) {
+  test(`a new light stands where the panels leave the picture free, seen from ${view}`, async ({ page, start }) => {
+    await visit(page, await start());
+    await growTo(page, 'visible');
+    await page.getByTestId('stage').focus();
+    await page.keyboard.press(key);
+    await page.waitForTimeout(1000); // the turn comes to its end
+    for (const kind of [/^Spot/, /^Point/]) {
+      await addLight(page, kind);
+      const mark = page.locator('.light-mark[aria-pressed=true]');
+      await expect(mark).toBeVisible();
+      const box = await mark.boundingBox();
+      if (!box) throw new Error('the mark is nowhere');
+      const at = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+      expect(await page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.className, at), 'what the pointer meets there').toBe('light-mark');
+      await page.mouse.click(550, 480); // nothing is chosen
+    }
+  });
+}

@@ -20,6 +20,7 @@ for (const reply of definitions.reply.oneOf) {
 }
 const scene = properties.scene.properties;
 scene.objects = { ...scene.objects, items: named('SceneObject', scene.objects.items) };
+scene.changed = { ...scene.changed, items: named('ChangedObject', scene.changed.items) };
 scene.bounds = { ...scene.bounds, anyOf: [named('Bounds', scene.bounds.anyOf[0]), scene.bounds.anyOf[1]] };
 properties.error = { ...properties.error, title: 'Failure', properties: { ...properties.error.properties, problems: { type: 'array', items: named('Problem', properties.error.properties.problems.items) } } };
 properties.files = { ...properties.files, properties: { ...properties.files.properties, files: { type: 'array', items: named('FileEntry', properties.files.properties.files.items) } } };

@@ -1,6 +1,7 @@
 #include "app/server/frame_maker.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 
 #include "app/cli/picture_options.h"
@@ -17,6 +18,23 @@ constexpr int tallest_part = 4;  // tiles: enough parts for the processors, few 
 
 void put(std::string& out, std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
+// Every four pixels as one; the last row and column may stand for fewer.
+std::vector<float> halved(const scene::Image& image, const render::Area& area) {
+    const scene::Layer& layer = image.layers.front();
+    const std::size_t channels = layer.channels.size(), row = static_cast<std::size_t>(image.width) * channels;
+    std::vector<float> values;
+    values.reserve(static_cast<std::size_t>((area.width + 1) / 2) * static_cast<std::size_t>((area.height + 1) / 2) * channels);
+    for (int y = 0; y < area.height; y += 2) {
+        const float* upper = &layer.values[static_cast<std::size_t>(area.y + y) * row + static_cast<std::size_t>(area.x) * channels];
+        const float* lower = y + 1 < area.height ? upper + row : upper;
+        for (int x = 0; x < area.width; x += 2) {
+            const std::size_t left = static_cast<std::size_t>(x) * channels, right = x + 1 < area.width ? left + channels : left;
+            for (std::size_t c = 0; c < channels; ++c) values.push_back((upper[left + c] + upper[right + c] + lower[left + c] + lower[right + c]) / 4);
+        }
+    }
+    return values;
 }
 
 std::vector<float> cut_out(const scene::Image& image, const render::Area& area) {
@@ -87,11 +105,11 @@ void FrameMaker::mark(const render::Area& area) {
     changed_[static_cast<std::size_t>(area.y / grid_.tile) * static_cast<std::size_t>(grid_.across()) + static_cast<std::size_t>(area.x / grid_.tile)] = true;
 }
 
-Expected<std::string> FrameMaker::encode(const render::Area& area, bool lossless) const {
+Expected<std::string> FrameMaker::encode(const render::Area& area, How how) const {
     const scene::Image& image = layer_ == ShownLayer::color ? frame_.image : picture_;
     const std::size_t channels = image.layers.front().channels.size();
     // Maps are display colours already.
-    const std::vector<float> values = cut_out(image, area);
+    const std::vector<float> values = how == How::coarse ? halved(image, area) : cut_out(image, area);
     std::vector<std::uint8_t> samples;
     if (layer_ == ShownLayer::color) {
         samples = io::display_samples<std::uint8_t>(values, channels, io::AlphaIs::straight, *tonemap_, exposure_);
@@ -99,18 +117,26 @@ Expected<std::string> FrameMaker::encode(const render::Area& area, bool lossless
         samples.resize(values.size());
         std::transform(values.begin(), values.end(), samples.begin(), [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5f); });
     }
-    if (!lossless) return encode_jpeg(area.width, area.height, samples, jpeg_quality);
+    if (how == How::coarse) return encode_jpeg((area.width + 1) / 2, (area.height + 1) / 2, samples, jpeg_quality);
+    if (how == How::lossy) return encode_jpeg(area.width, area.height, samples, jpeg_quality);
     return io::encode_png(area.width, area.height, channels == 4 ? 4 : 3, std::span<const std::uint8_t>(samples), {});
 }
 
-Expected<std::string> FrameMaker::make(std::uint32_t number, std::uint32_t looks) {
+Expected<std::string> FrameMaker::make(std::uint32_t number, std::uint32_t looks, bool quick) {
     const scene::Image& image = layer_ == ShownLayer::color ? frame_.image : picture_;
     const bool lossless = lossless_ || image.layers.front().channels.size() == 4;  // JPEG has no alpha
+    constexpr double too_long = 0.008;  // seconds, of the fiftieth of one in which a picture should follow the hand
+    const bool coarse = quick && !lossless && seconds_a_pixel_ * image.width * image.height > too_long;
+    const How how = lossless ? How::lossless : coarse ? How::coarse : How::lossy;
+    const auto start = std::chrono::steady_clock::now();
     std::vector<bool> send = changed_;
     for (std::size_t i = 0; i < send.size(); ++i) send[i] = send[i] || (lossless_ && sent_[i] != Sent::exact);
     const std::vector<render::Area> areas = rectangles_of(grid_, send, tallest_part);
     std::vector<Expected<std::string>> parts(areas.size());
-    pool_.for_each(areas.size(), [&](std::size_t i) { parts[i] = encode(areas[i], lossless); });
+    pool_.for_each(areas.size(), [&](std::size_t i) { parts[i] = encode(areas[i], how); });
+    std::size_t pixels = 0;
+    for (const render::Area& area : areas) pixels += static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height);
+    if (how == How::lossy && pixels > 0) seconds_a_pixel_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(pixels);
 
     std::string bytes = "CRF1";
     put(bytes, number, 4);
@@ -130,7 +156,7 @@ Expected<std::string> FrameMaker::make(std::uint32_t number, std::uint32_t looks
     for (std::size_t i = 0; i < send.size(); ++i) {
         if (send[i]) sent_[i] = lossless ? Sent::exact : Sent::lossy;
     }
-    std::fill(changed_.begin(), changed_.end(), false);
+    if (!coarse) std::fill(changed_.begin(), changed_.end(), false);
     begins_ = false;
     return bytes;
 }

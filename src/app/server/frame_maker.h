@@ -30,15 +30,17 @@ public:
     // Takes in what changed. `done`: the picture is converged, so that what was sent lossily is sent again without loss. Whether there is anything to send.
     bool look(render::Session& session, bool done);
 
-    // The frame of what look() found, to be sent with this number; `looks`: the number of the camera that it is seen by. Errors: resource.
-    Expected<std::string> make(std::uint32_t number, std::uint32_t looks);
+    // The frame of what look() found, to be sent with this number; `looks`: the number of the camera that it is seen by. `quick`: it should be there soon; where this machine takes long for all pixels, a picture
+    // with a quarter of them is sent, and all of them with the next frame. Errors: resource.
+    Expected<std::string> make(std::uint32_t number, std::uint32_t looks, bool quick);
 
 private:
     enum class Sent : unsigned char { nothing, lossy, exact };
     void look_at_color(render::Session& session);
     void look_at_layer(render::Session& session);
     void mark(const render::Area& area);
-    Expected<std::string> encode(const render::Area& area, bool lossless) const;
+    enum class How { coarse, lossy, lossless };
+    Expected<std::string> encode(const render::Area& area, How how) const;
 
     parallel::Pool pool_;
     bool anew_ = true, lossless_ = false, begins_ = true;
@@ -51,6 +53,7 @@ private:
     std::optional<scene::Tonemap> tonemap_;  // nothing: to be found out
     scene::Tonemap shown_tonemap_ = scene::Tonemap::srgb;
     double exposure_ = 0;
+    double seconds_a_pixel_ = 0;  // that the last lossy frame took
 };
 
 }  // namespace crescente::app

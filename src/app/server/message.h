@@ -84,6 +84,8 @@ struct Message {
     Expected<Request> request;       // or every problem (input), each with its JSON pointer
 };
 
+// Raised when a message that was right gets another meaning, or one side has to know of a new one.
+inline constexpr int protocol_version = 2;
 inline constexpr std::size_t longest_message = std::size_t{1} << 20;  // bytes
 inline constexpr int widest_view = 8192;                              // pixels, also the highest
 

@@ -110,8 +110,10 @@ Schema reply_values() {
     const Schema problem = object({{"file", text()}, {"place", text()}, {"reason", text()}, {"hint", text()}});
     const Schema entry = object({{"index", index}, {"name", text()}, {"visible", boolean()}, {"shape", or_null(text())}, {"triangles?", whole()}, {"faces?", whole()},
                                  {"material", index_or_null}, {"materials?", list_of(index_or_null)}, {"transform", numbers(12)}, {"bounds", bounds}, {"children", list_of(index)}});
+    Schema changed = entry;  // its index, and those members that are other than they were
+    changed["required"] = {"index"};
     return {{"welcome",
-             object({{"version", text()}, {"protocol", {{"const", 1}}}, {"session", text()}, {"taken_up", boolean()},
+             object({{"version", text()}, {"protocol", {{"const", protocol_version}}}, {"session", text()}, {"taken_up", boolean()},
                      {"limits", object({{"upload", whole()}, {"message", whole()}, {"width", whole()}, {"height", whole()}})},
                      {"levels", list_of(ref("level"))}, {"layers", list_of(text())}, {"formats", list_of(text())}, {"studios", list_of(text())},
                      {"library", list_of(object({{"name", text()}, {"group", text()}, {"note", text()}, {"color", numbers(3)}}))}})},
@@ -119,10 +121,10 @@ Schema reply_values() {
             {"opened", object({{"file", text()}})},
             {"files", object({{"folder", or_null(text())}, {"folders", list_of(text())}, {"files", list_of(file)}, {"environments", list_of(file)}, {"examples", list_of(file)}, {"recent", list_of(file)}})},
             {"scene", object({{"name", text()}, {"unit", text()}, {"metres", number()}, {"file", text()}, {"revision", whole()}, {"can_undo", whole()}, {"can_redo", whole()}, {"opened?", {{"const", true}}},
-                              {"warnings?", list_of(problem)}, {"bounds?", bounds}, {"objects?", list_of(entry)}, {"roots?", list_of(index)}, {"ground?", one_of(ground_names())},
+                              {"warnings?", list_of(problem)}, {"bounds?", bounds}, {"objects?", list_of(entry)}, {"changed?", list_of(changed)}, {"gone?", list_of(index)}, {"roots?", list_of(index)}, {"ground?", one_of(ground_names())},
                               {"materials?", list_of(ref("material"))}, {"lights?", list_of(ref("light"))}, {"studio?", or_null(one_of(scene::studio_names))}, {"camera?", or_null(ref("camera"))},
                               {"environment?", or_null(ref("environment"))}, {"settings?", ref("settings")}})},
-            {"edited", object({{"began_anew", boolean()}, {"seconds", number()}, {"can_undo", whole()}, {"can_redo", whole()}})},
+            {"edited", object({{"began_anew", boolean()}, {"seconds", number()}, {"can_undo", whole()}, {"can_redo", whole()}, {"revision", whole()}})},
             {"picked", or_null(object({{"path", list_of(index)}, {"face", whole()}, {"material", index_or_null}, {"position", numbers(3)}, {"normal", numbers(3)}}))},
             {"replayed", object({{"text", text()}, {"trees", list_of(ref("tree"))}})},
             {"progress", object({{"level", text()}, {"fraction", number()}, {"until", ref("level")}, {"done", boolean()}, {"paused", boolean()}, {"first_picture", boolean()}, {"seconds", number()},
@@ -170,7 +172,7 @@ std::string protocol_schema() {
     defs["request"] = std::move(requests);
     defs["tree"] = tree_schema();
     defs["reply"] = one_member(reply_words(), reply_values(), {{"id", {{"description", "Of the message that is answered"}, {"type", "integer"}}}});
-    Schema schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Crescente viewer protocol, version 1"}};
+    Schema schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Crescente viewer protocol, version " + std::to_string(protocol_version)}};
     schema["anyOf"] = {ref("request"), ref("reply")};
     schema["$defs"] = std::move(defs);
     std::string out;

@@ -36,8 +36,8 @@ ReplyJson problems_json(const Problems& problems) {
 
 std::string error_reply(const Error& error, const MessageId& id) { return reply("error", {{"kind", name_of(error.kind)}, {"problems", problems_json(error.problems)}}, id); }
 
-std::string edited_reply(const render::EditReport& report, const UndoState& undo, const MessageId& id) {
-    return reply("edited", {{"began_anew", report.began_anew}, {"seconds", report.seconds}, {"can_undo", undo.undoable}, {"can_redo", undo.redoable}}, id);
+std::string edited_reply(const render::EditReport& report, const EditState& state, const MessageId& id) {
+    return reply("edited", {{"began_anew", report.began_anew}, {"seconds", report.seconds}, {"can_undo", state.undoable}, {"can_redo", state.redoable}, {"revision", state.revision}}, id);
 }
 
 std::string picked_reply(const std::optional<render::Pick>& pick, const scene::Scene& scene, const MessageId& id) {
@@ -59,7 +59,7 @@ std::span<const io::Word> reply_words() {
         {"opening", "file, fraction and stage", "A file is being read"},
         {"opened", "file", "It was read; `scene` follows"},
         {"files", "see the schema", "What can be opened"},
-        {"scene", "see the schema", "All of the scene but geometry; after edits only what they changed"},
+        {"scene", "see the schema", "All of the scene but geometry; after edits what they changed"},
         {"edited", "see the schema", "An edit is done"},
         {"picked", "see the schema, or `null`", "What is seen through a pixel"},
         {"replayed", "text and trees", "The ray trees of a pixel"},

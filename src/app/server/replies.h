@@ -22,10 +22,12 @@ std::string reply(const std::string& name, ReplyJson value, const MessageId& id 
 std::string error_reply(const Error& error, const MessageId& id);
 ReplyJson problems_json(const Problems& problems);
 
-struct UndoState {
+// After an edit. revision: of the scene, which the message `scene` has, too.
+struct EditState {
     std::size_t undoable = 0, redoable = 0;
+    std::uint64_t revision = 0;
 };
-std::string edited_reply(const render::EditReport& report, const UndoState& undo, const MessageId& id);
+std::string edited_reply(const render::EditReport& report, const EditState& state, const MessageId& id);
 
 // Lengths in the scene's unit.
 std::string picked_reply(const std::optional<render::Pick>& pick, const scene::Scene& scene, const MessageId& id);

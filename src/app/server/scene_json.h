@@ -4,6 +4,7 @@
 #include <span>
 
 #include "app/server/replies.h"
+#include "app/server/told_objects.h"
 #include "scene/edit.h"
 #include "scene/scene.h"
 
@@ -21,7 +22,8 @@ struct SceneParts {
 // What the edits may change.
 SceneParts parts_of(std::span<const scene::Edit> edits);
 
-// The members of the parts, and those that every such message has. Lengths in the scene's unit, values as in scene files, without those at their defaults.
-ReplyJson scene_json(const scene::Scene& scene, const SceneParts& parts);
+// The members of the parts, and those that every such message has. Lengths in the scene's unit, values as in scene files, without those at their defaults. Of objects only what is not
+// told yet.
+ReplyJson scene_json(const scene::Scene& scene, const SceneParts& parts, ToldObjects& told);
 
 }  // namespace crescente::app

@@ -7,6 +7,7 @@
 
 #include "app/server/connection.h"
 #include "app/server/http.h"
+#include "app/server/message.h"
 #include "app/server/replies.h"
 #include "app/server/welcome.h"
 
@@ -18,7 +19,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr const char* subprotocol = "crescente.1";
+const std::string subprotocol = "crescente." + std::to_string(protocol_version);
 constexpr double most_messages = 500;             // a second
 constexpr std::size_t most_waiting = 64;          // messages that the viewer has not taken
 constexpr std::size_t most_backlog = std::size_t{1} << 20;  // bytes of answers that the page has not taken

@@ -35,7 +35,7 @@ void Viewer::order(const std::function<void(Orders&)>& put, bool at_once) {
 
 void Viewer::give(Message message) {
     if (message.request) {
-        if (auto* look = std::get_if<Look>(&*message.request)) return order([&](Orders& o) { o.look = std::move(*look); }, false);
+        if (auto* look = std::get_if<Look>(&*message.request)) return order([&](Orders& o) { o.look = std::move(*look); }, true);
         if (auto* view = std::get_if<ViewSize>(&*message.request)) return order([&](Orders& o) { o.view = *view; }, false);
         if (std::holds_alternative<FrameShown>(*message.request)) return order([&](Orders& o) { o.messages.push_back(std::move(message)); }, false);
     }

@@ -52,7 +52,7 @@ void Viewer::Work::carry_out(Message message) {
     if (const auto* files = std::get_if<ListFiles>(&request)) return list_files(message.id, files->folder);
     if (const auto* until = std::get_if<GrowUntil>(&request); until && !session_) {
         wanted_level_ = until->level;
-        return say_.text(edited_reply({}, {}, message.id));
+        return say_.text(edited_reply({}, edit_state(), message.id));
     }
     if (const auto* pause = std::get_if<Pause>(&request)) {
         paused_ = pause->paused;
@@ -179,7 +179,7 @@ void Viewer::Work::apply(const Message& message, std::vector<scene::Edit> edits)
     const auto report = history_.edit(*session_, std::move(edits), {}, message.gesture);
     if (!report) return say_error(report.error(), message.id);
     after_edit(*report, parts);
-    say_.text(edited_reply(*report, {history_.undoable(), history_.redoable()}, message.id));
+    say_.text(edited_reply(*report, edit_state(), message.id));
 }
 
 void Viewer::Work::edit(Message& message, const io::Json& json) {
@@ -209,7 +209,7 @@ void Viewer::Work::walk_history(const MessageId& id, int times, bool undo) {
     }
     after_edit(whole, SceneParts::all());
     keep_view();
-    say_.text(edited_reply(whole, {history_.undoable(), history_.redoable()}, id));
+    say_.text(edited_reply(whole, edit_state(), id));
 }
 
 Expected<render::EditReport> Viewer::Work::change_unseen(std::vector<scene::Edit> edits) {
@@ -240,18 +240,22 @@ void Viewer::Work::take_view() {
 }
 
 // The newest camera, once the picture of the one before is whole: so that a drag shows every camera that it takes.
-void Viewer::Work::take_look() {
-    if (!look_ || !session_) return;
-    if (!progress_.first_picture && !whole_first_) return;
+bool Viewer::Work::take_look() {
+    if (!look_ || !session_) return false;
+    if (!progress_.first_picture && !whole_first_) return false;
     Look look = std::move(*look_);
     look_.reset();
     auto edits = io::read_edit(edit_of("camera", std::move(look.camera)), session_->scene(), {});
-    if (!edits) return say_error(edits.error(), {});
+    if (!edits) {
+        say_error(edits.error(), {});
+        return false;
+    }
     looks_ = look.number;
     unshown_ = true;
-    if (edits->empty()) return;
+    if (edits->empty()) return false;
     frames_.begin_picture();
     if (const auto changed = change_unseen(std::move(*edits)); !changed) say_error(changed.error(), {});
+    return true;
 }
 
 void Viewer::Work::set_until(const MessageId& id, scene::Level level) {
@@ -263,7 +267,7 @@ void Viewer::Work::set_until(const MessageId& id, scene::Level level) {
     if (!report) return say_error(report.error(), id);
     if (begun) fresh_from_ = begun;  // it is still a fresh picture that grows
     untold_.settings = true;
-    say_.text(edited_reply(*report, {history_.undoable(), history_.redoable()}, id));
+    say_.text(edited_reply(*report, edit_state(), id));
 }
 
 void Viewer::Work::set_studio(const Message& message, const std::optional<std::string>& name) {

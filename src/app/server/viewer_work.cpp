@@ -56,10 +56,11 @@ void Viewer::Work::serve(Orders orders) {
     }
     for (Message& message : orders.messages) carry_out(std::move(message));
     take_view();
-    take_look();
+    const bool looked = take_look();
     if (opened_) tell_scene();
+    if (looked) show(true);  // what is known of the new view already
     grow();
-    show();
+    show(false);
     tell_scene();  // after the pixels, which the eye waits for
     tell_progress();
     tell_exports();
@@ -110,7 +111,7 @@ void Viewer::Work::grow() {
     next_frame_ = next_progress_ = Clock::now();
 }
 
-void Viewer::Work::show() {
+void Viewer::Work::show(bool quick) {
     if (!session_ || !say_.page || !unshown_ || sent_ - shown_ >= most_unshown || Clock::now() < next_frame_) return;
     if (whole_first_ && !progress_.first_picture) return;
     whole_first_ = false;
@@ -122,16 +123,18 @@ void Viewer::Work::show() {
         next_frame_ = Clock::now() + std::max<Clock::duration>(shortest, 3 * (Clock::now() - start));
     };
     if (!frames_.look(*session_, progress_.done)) return take_time();
-    auto bytes = frames_.make(sent_ + 1, looks_);
+    auto bytes = frames_.make(sent_ + 1, looks_, quick);
     if (!bytes) return say_error(bytes.error(), {});
     ++sent_;
     say_.frame(std::move(*bytes));
+    unshown_ = quick;  // all of its pixels are to follow
     take_time();
 }
 
 void Viewer::Work::tell_scene() {
     if (!session_ || !say_.page || !untold_.any() || say_.backlog() > most_backlog) return;
-    ReplyJson json = scene_json(session_->scene(), std::exchange(untold_, {}));
+    if (opened_) told_objects_.forget();
+    ReplyJson json = scene_json(session_->scene(), std::exchange(untold_, {}), told_objects_);
     if (std::exchange(opened_, false)) json["opened"] = true;
     json["file"] = title_;
     json["revision"] = revision_;

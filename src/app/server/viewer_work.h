@@ -27,7 +27,7 @@ private:
     bool has_work(Clock::time_point now) const;
     Clock::time_point wake_time() const;
     void grow();
-    void show();
+    void show(bool quick);
     void tell_progress();
     void tell_scene();
     ReplyJson progress_json(const render::Stats& stats, double rays_per_second) const;
@@ -41,7 +41,7 @@ private:
     void attach(std::uint32_t page);
     void carry_out(Message message);
     void take_view();
-    void take_look();
+    bool take_look();  // whether there was one
     void edit(Message& message, const io::Json& json);
     void walk_history(const MessageId& id, int times, bool undo);
     void set_until(const MessageId& id, scene::Level level);
@@ -52,6 +52,7 @@ private:
     void apply(const Message& message, std::vector<scene::Edit> edits);
     Expected<render::EditReport> change_unseen(std::vector<scene::Edit> edits);  // what undo does not take back
     void keep_view();
+    EditState edit_state() const { return {history_.undoable(), history_.redoable(), revision_}; }
     void after_edit(const render::EditReport& report, const SceneParts& parts);
     void open(const std::string& file, const MessageId& id);
     void note_sources(io::ShapeSources sources);
@@ -90,6 +91,7 @@ private:
 
     bool opened_ = false;                 // the page does not know the scene that is open at all
     SceneParts untold_;                   // parts of the scene that the page does not know as they are
+    ToldObjects told_objects_;
     bool progress_untold_ = false;
     double grown_seconds_ = 0;            // since the edit
     std::uint64_t rays_before_ = 0, camera_rays_before_ = 0, tiles_before_ = 0;  // at the edit

@@ -7,8 +7,6 @@
 
 namespace crescente::app {
 
-inline constexpr int protocol_version = 1;
-
 std::string welcome(const std::string& key, bool taken_up, const SessionLimits& limits);
 
 }  // namespace crescente::app

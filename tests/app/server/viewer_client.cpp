@@ -1,5 +1,6 @@
 #include "app/server/viewer_client.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -40,6 +41,20 @@ Pixels read_jpeg(const std::string& bytes) {
     EXPECT_EQ(subsampling, TJSAMP_444);
     tjDestroy(reader);
     return pixels;
+}
+
+// A picture of half the size both ways, pixel by pixel.
+Pixels stretched(const Pixels& half, int width, int height) {
+    EXPECT_EQ(half.width, (width + 1) / 2);
+    EXPECT_EQ(half.height, (height + 1) / 2);
+    Pixels whole{width, height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t from = 3 * (static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(half.width) + static_cast<std::size_t>(x / 2));
+            for (std::size_t c = 0; c < 3; ++c) whole.rgb.push_back(half.rgb.at(from + c));
+        }
+    }
+    return whole;
 }
 
 void connect(tcp::socket& socket, net::io_context& network, const std::string& host) {
@@ -109,7 +124,7 @@ Client::Client(const Server& server, const std::string& session) {
     socket_.next_layer().set_option(tcp::no_delay(true));
     socket_.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
         request.set(http::field::origin, "http://" + server.host());
-        request.set(http::field::sec_websocket_protocol, "crescente.1");
+        request.set(http::field::sec_websocket_protocol, "crescente.2");
     }));
     socket_.read_message_max(std::size_t{1} << 28);
     socket_.handshake(server.host(), "/socket?token=" + server.token() + (session.empty() ? "" : "&session=" + session));
@@ -117,6 +132,20 @@ Client::Client(const Server& server, const std::string& session) {
         auto first = next();
         if (auto* text = std::get_if<Json>(&first)) welcome_ = std::move(*text);
     }
+}
+
+// As a page does: what was changed of the objects goes into those that are there.
+void Client::take_scene(const Json& news) {
+    scene_.update(news);
+    scene_.erase("changed");
+    scene_.erase("gone");
+    const auto place = [&](const Json& index) { return std::find_if(scene_["objects"].begin(), scene_["objects"].end(), [&](const Json& one) { return one["index"] == index; }); };
+    for (const Json& object : news.value("changed", Json::array())) {
+        if (const auto at = place(object["index"]); at != scene_["objects"].end()) at->update(object);
+        else scene_["objects"].push_back(object);
+    }
+    for (const Json& index : news.value("gone", Json::array())) scene_["objects"].erase(place(index));
+    told_objects += news.value("objects", Json::array()).size() + news.value("changed", Json::array()).size();
 }
 
 void Client::send_text(const std::string& text) {
@@ -187,7 +216,7 @@ std::variant<Client::Json, FrameHeader> Client::next() {
         return frame;
     }
     Json json = Json::parse(bytes);
-    if (json.contains("scene")) scene_.update(json["scene"]);
+    if (json.contains("scene")) take_scene(json["scene"]);
     if (json.contains("progress")) progress_ = json["progress"];
     return json;
 }
@@ -209,7 +238,8 @@ FrameHeader Client::draw(const std::string& bytes) {
         const bool lossless = number_at(bytes, at + 8, 1) == 1;
         const std::size_t length = number_at(bytes, at + 12, 4);
         at += 16;
-        const Pixels part = lossless ? read_png(bytes.substr(at, length)) : read_jpeg(bytes.substr(at, length));
+        Pixels part = lossless ? read_png(bytes.substr(at, length)) : read_jpeg(bytes.substr(at, length));
+        if (!lossless && part.width < static_cast<int>(width)) part = stretched(part, static_cast<int>(width), static_cast<int>(height));
         at += length;
         EXPECT_EQ(part.width, static_cast<int>(width));
         EXPECT_EQ(part.height, static_cast<int>(height));

@@ -88,12 +88,14 @@ public:
     const Json& scene() const { return scene_; }  // as the messages so far have it
 
     bool acknowledging = true;
-    std::size_t frames = 0;  // that came
+    std::size_t frames = 0;        // that came
+    std::size_t told_objects = 0;  // in messages `scene`
 
 private:
     // The next message: a text, or the header of a frame that was drawn.
     std::variant<Json, FrameHeader> next();
     FrameHeader draw(const std::string& bytes);
+    void take_scene(const Json& news);
 
     boost::asio::io_context network_;
     boost::beast::websocket::stream<boost::asio::ip::tcp::socket> socket_{network_};

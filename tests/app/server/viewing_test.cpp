@@ -45,7 +45,7 @@ TEST_F(Viewing, FramesAddUpToThePictureOfTheCommandLine) {
     EXPECT_EQ(client.picture(), rendered(primitives, size_option));
     EXPECT_EQ(client.scene()["name"], "primitives");
     EXPECT_EQ(client.scene()["opened"], true);
-    EXPECT_EQ(client.welcome()["welcome"]["protocol"], 1);
+    EXPECT_EQ(client.welcome()["welcome"]["protocol"], 2);
     EXPECT_GT(client.wait_done()["fresh_rays"], width * height);
     server.program().send(SIGINT);
     EXPECT_EQ(client.wait_for("closed")["closed"]["reason"], "the program ends");
@@ -111,6 +111,44 @@ TEST_F(Viewing, TheNewestCameraWins) {
     EXPECT_EQ(frame.looks, static_cast<std::uint32_t>(looks));
     EXPECT_EQ(client.request({{"undo", 1}})["error"]["problems"][0]["place"], "/undo");
     EXPECT_EQ(client.picture(), rendered(primitives, {"--size", "160x100", "--set", "camera.position=[3.6,2,5]", "--set", "camera.target=[0,0.5,0]", "--set", "camera.field_of_view=40"}));
+}
+
+// Of many objects only those are told that an edit changed: what is told adds up to what a page that comes now is told.
+TEST_F(Viewing, OfObjectsOnlyWhatChangedIsTold) {
+    Json objects = Json::object();
+    constexpr int balls = 300;
+    for (int i = 0; i < balls; ++i) objects["ball " + std::to_string(i)] = {{"shape", {{"sphere", {{"radius", 0.4}}}}}, {"transform", {{"translate", {i % 20, i / 20, 0}}}}};
+    const std::string model = write("balls.json", Json{{"objects", std::move(objects)}}.dump());
+    Server server({model});
+    Client client(server);
+    set_size(client);
+    client.wait_converged(has_size);
+    EXPECT_GE(client.told_objects, static_cast<std::size_t>(balls));
+    const auto edit = [&](const Json& verb) {
+        const std::size_t before = client.told_objects;
+        const std::uint64_t revision = client.request(verb)["edited"]["revision"];
+        while (client.scene()["revision"] < revision) client.wait_for("scene");
+        return client.told_objects - before;
+    };
+    EXPECT_EQ(edit({{"move", {{"object", "ball 7"}, {"by", {{"translate", {0, 0, 0.5}}}}}}}), 1u);
+    EXPECT_EQ(edit({{"hide", "ball 8"}}), 1u);
+    EXPECT_EQ(edit({{"assign", {{"object", "ball 9"}, {"material", {{"name", "red"}, {"base_color", {1, 0, 0}}}}}}}), 1u);
+    EXPECT_EQ(edit({{"duplicate", {{"object", "ball 10"}, {"name", "copy"}}}}), 1u);
+    EXPECT_EQ(edit({{"remove", "ball 11"}}), 0u);
+    EXPECT_EQ(edit({{"undo", 5}}), 4u);
+    EXPECT_EQ(edit({{"redo", 4}}), 4u);
+    const Json told = client.scene();
+    client.vanish();
+    Client again(server, client.session());
+    again.wait_for("scene");
+    for (const char* member : {"objects", "roots", "bounds"}) {
+        Json before = told[member], now = again.scene()[member];
+        if (std::string(member) == "objects") {
+            const auto by_index = [](const Json& a, const Json& b) { return a["index"] < b["index"]; };
+            std::sort(before.begin(), before.end(), by_index), std::sort(now.begin(), now.end(), by_index);
+        }
+        EXPECT_EQ(before, now) << member;
+    }
 }
 
 TEST_F(Viewing, ThePixelTellsWhatIsThere) {

@@ -7,10 +7,10 @@ import { duplicateSelection, removeSelection } from '../state/edits';
 import { hover, select, toggleExpanded, toggleIsolated, toggleVisible } from '../state/selection';
 import { get, set, useStore } from '../state/store';
 import { nameOf, parentOf, rowsOf, type Row } from '../state/tree';
+import { rowHeight } from '../sizes';
 import { theStage } from '../view/current_stage';
 import { PanelHeader } from './panel_header';
 
-const rowHeight = 30;
 
 export function AssemblyPanel() {
   const objects = useStore((s) => s.scene?.objects);
@@ -22,7 +22,8 @@ export function AssemblyPanel() {
   const [active, setActive] = useState<string | null>(null);
   const parent = useRef<HTMLDivElement>(null);
   const rows = useMemo(() => (objects && roots ? rowsOf({ objects, roots }, expanded, search) : []), [objects, roots, expanded, search]);
-  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => parent.current, estimateSize: () => rowHeight, overscan: 8 });
+  const [height] = useState(rowHeight);
+  const virtual = useVirtualizer({ count: rows.length, getScrollElement: () => parent.current, estimateSize: () => height, overscan: 8 });
 
   // What was selected in the picture comes into sight.
   const last = selection[selection.length - 1];
@@ -111,7 +112,7 @@ const TreeRow = memo(function TreeRow({ path, object, depth, hidden, open }: Row
       aria-expanded={object.children.length > 0 ? open : undefined}
       data-hovered={hovered}
       data-hidden={hidden}
-      style={{ paddingLeft: 4 + depth * 14 }}
+      style={{ paddingLeft: `${(4 + depth * 14) / 16}rem` }}
       onClick={(event) => select(path, event.ctrlKey || event.metaKey || event.shiftKey)}
       onDoubleClick={() => theStage()?.fit()}
       onPointerEnter={() => hover(path)}
@@ -122,7 +123,7 @@ const TreeRow = memo(function TreeRow({ path, object, depth, hidden, open }: Row
           <Chevron size={14} />
         </ActionIcon>
       ) : (
-        <span style={{ width: 20 }} />
+        <span style={{ width: '1.25rem' }} />
       )}
       <span className="name">{name}</span>
       <RowMenu path={path} name={name} />

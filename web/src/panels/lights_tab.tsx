@@ -9,6 +9,7 @@ import type { Named, Vector } from '../protocol/messages';
 import { edit, removeSelection, setLightField } from '../state/edits';
 import { newLight, lightKinds } from '../state/lights';
 import { get, set, useStore } from '../state/store';
+import { theStage } from '../view/current_stage';
 import { GroupedFields, type FieldGroup } from './fields/grouped_fields';
 import { useDrag } from './fields/use_drag';
 
@@ -64,7 +65,7 @@ export function LightsTab() {
 async function add(kind: string): Promise<void> {
   const { scene } = get();
   if (!scene) return;
-  const light = newLight(scene, kind);
+  const light = newLight(scene, kind, (place) => theStage()?.intoSight(place) ?? place);
   // It comes after those that are there.
   const index = scene.lights.length;
   if (await edit({ light }, 'Add light')) set({ light: index, selection: [] });
@@ -77,7 +78,7 @@ const LightRow = memo(function LightRow({ light, index, chosen }: { light: Named
   return (
     <div className="row" role="listitem" data-chosen={chosen}>
       <button type="button" className="choose" aria-pressed={chosen} onClick={choose}>
-        <span style={{ width: 12, height: 12, borderRadius: '50%', marginInline: 4, background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
+        <span style={{ width: '0.75rem', height: '0.75rem', borderRadius: '50%', marginInline: '0.25rem', background: hexOf(color.map((x) => x / most) as Vector), boxShadow: '0 0 0 1px var(--line)' }} />
         <span className="name">{light.name || `Light ${index + 1}`}</span>
         <Text size="xs" c="dimmed">{labelOf(String(light.kind ?? 'point'))} · {short(Number(light.intensity ?? 1), 3)}</Text>
       </button>
@@ -94,7 +95,7 @@ const fieldsOfSun = fieldsWith('lx');
 const fieldsOfLamp = fieldsWith('cd');
 
 function LightEditor({ light, index, lengthUnit }: { light: Named; index: number; lengthUnit: string }) {
-  const onChange = useDrag((field, value) => setLightField(index, field, value), (field) => `${light.name || 'Light'}: ${field.replaceAll('_', ' ')}`);
+  const onChange = useDrag((field, value) => setLightField(index, field, value), (field) => `${light.name || 'Light'}: ${field.replaceAll('_', ' ')}`, () => get().scene?.lights[index]);
   const fields = light.kind === 'directional' ? fieldsOfSun : fieldsOfLamp;
   return <GroupedFields fields={fields} first={firstOf[String(light.kind ?? 'point')] ?? firstOf.point} groups={groups} values={light} lengthUnit={lengthUnit} onChange={onChange} />;
 }

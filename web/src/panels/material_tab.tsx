@@ -7,7 +7,7 @@ import { fieldsOfMaterial } from '../protocol/fields';
 import type { LibraryMaterial, Named } from '../protocol/messages';
 import { setMaterialField } from '../state/edits';
 import { applyLibrary, applyMaterial, dragOfLibrary, dragOfMaterial } from '../state/materials';
-import { useStore } from '../state/store';
+import { get, useStore } from '../state/store';
 import { materialOf } from '../state/tree';
 import { GroupedFields, type FieldGroup } from './fields/grouped_fields';
 import { useDrag } from './fields/use_drag';
@@ -89,13 +89,13 @@ const Library = memo(function Library() {
 });
 
 function MaterialEditor({ material, index, lengthUnit }: { material: Named; index: number; lengthUnit: string }) {
-  const onChange = useDrag((field, value) => setMaterialField(index, field, value), (field) => `${material.name || 'Material'}: ${field.replaceAll('_', ' ')}`);
+  const onChange = useDrag((field, value) => setMaterialField(index, field, value), (field) => `${material.name || 'Material'}: ${field.replaceAll('_', ' ')}`, () => get().scene?.materials[index]);
   const fields = fieldsOfMaterial(material);
   const textures = material.textures && typeof material.textures === 'object' ? Object.keys(material.textures) : [];
   return (
     <>
       <Group gap={8} mb={10} wrap="nowrap">
-        <span style={{ width: 22, height: 22, borderRadius: '50%', background: swatchOf(material).color, boxShadow: '0 0 0 1px var(--line)' }} />
+        <span style={{ width: '1.375rem', height: '1.375rem', borderRadius: '50%', background: swatchOf(material).color, boxShadow: '0 0 0 1px var(--line)' }} />
         <Text fw={600} size="sm" flex={1} truncate component="h3" title={material.name}>{material.name || `Material ${index}`}</Text>
         {material.model === 'classic' && <Badge size="sm" variant="default">classic</Badge>}
       </Group>

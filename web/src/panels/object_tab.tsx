@@ -1,14 +1,14 @@
 // The selected part: where it stands, by numbers, and what can be done with it.
 import { Button, Group, Stack, Text } from '@mantine/core';
 import { IconCopy, IconEyeOff, IconFocus2, IconSquareDashed, IconTrash } from '@tabler/icons-react';
-import { MathUtils, Matrix4 } from 'three';
+import { MathUtils } from 'three';
 import type { Scene, Vector } from '../protocol/messages';
 import { short } from '../format';
-import { duplicateSelection, edit, removeSelection } from '../state/edits';
+import { duplicateSelection, editInTurn, removeSelection } from '../state/edits';
 import { placementOf, movedTo, turnedTo } from '../state/placement';
 import { hideSelection, toggleIsolated } from '../state/selection';
 import { useShallow } from 'zustand/react/shallow';
-import { useStore } from '../state/store';
+import { get, useStore } from '../state/store';
 import { leafOf, nameOf, objectAt, rowsOfMatrix, worldBox } from '../state/tree';
 import { theStage } from '../view/current_stage';
 import { VectorBoxes } from './fields/vector_field';
@@ -20,7 +20,19 @@ export function ObjectTab() {
   const object = scene && path !== undefined ? objectAt(scene, leafOf(path)) : undefined;
   if (!scene || !object || path === undefined) return <Text className="section" size="sm" c="dimmed">Click a part in the picture or in the assembly.</Text>;
   const { position, degrees } = placementOf(object);
-  const move = (transform: Matrix4, title: string) => void edit({ move: { object: object.index, transform: { matrix: rowsOfMatrix(transform) } } }, title);
+  // What was typed, in place of what is there by the time.
+  const place = (what: 'position' | 'degrees', axis: number, to: number) =>
+    void editInTurn(
+      () => {
+        const { scene: now } = get();
+        const there = now && objectAt(now, object.index);
+        if (!there) return null;
+        const values = placementOf(there)[what].map((old, i) => (i === axis ? to : old)) as Vector;
+        const transform = what === 'position' ? movedTo(there, values) : turnedTo(there, values.map(MathUtils.degToRad) as Vector);
+        return { move: { object: there.index, transform: { matrix: rowsOfMatrix(transform) } } };
+      },
+      what === 'position' ? 'Move' : 'Rotate',
+    );
   return (
     <div className="scroll">
       <section className="section">
@@ -30,21 +42,21 @@ export function ObjectTab() {
       <Stack className="section" gap={8}>
         <div>
           <Text size="xs" mb={3}>Position <Text span c="dimmed">{scene.unit}</Text></Text>
-          <VectorBoxes value={position} label="Position" unit={scene.unit} onCommit={(to) => move(movedTo(object, to), 'Move')} />
+          <VectorBoxes value={position} label="Position" unit={scene.unit} onCommit={(axis, to) => place('position', axis, to)} />
         </div>
         <div>
           <Text size="xs" mb={3}>Rotation <Text span c="dimmed">degrees, about its middle</Text></Text>
-          <VectorBoxes value={degrees} label="Rotation" unit="degrees" onCommit={(to) => move(turnedTo(object, to.map(MathUtils.degToRad) as Vector), 'Rotate')} />
+          <VectorBoxes value={degrees} label="Rotation" unit="degrees" onCommit={(axis, to) => place('degrees', axis, to)} />
         </div>
       </Stack>
-      <Group className="section" gap={6} grow>
-        <Button variant="default" size="xs" leftSection={<IconFocus2 size={15} />} onClick={() => theStage()?.fit()}>Fit</Button>
-        <Button variant="default" size="xs" leftSection={<IconSquareDashed size={15} />} onClick={() => void toggleIsolated()}>Isolate</Button>
-        <Button variant="default" size="xs" leftSection={<IconEyeOff size={15} />} onClick={hideSelection}>Hide</Button>
+      <Group className="section" gap={6} grow preventGrowOverflow={false} wrap="nowrap">
+        <Button variant="default" size="xs" px={8} leftSection={<IconFocus2 size={15} />} onClick={() => theStage()?.fit()}>Fit</Button>
+        <Button variant="default" size="xs" px={8} leftSection={<IconSquareDashed size={15} />} onClick={() => void toggleIsolated()}>Isolate</Button>
+        <Button variant="default" size="xs" px={8} leftSection={<IconEyeOff size={15} />} onClick={hideSelection}>Hide</Button>
       </Group>
       <Group className="section" gap={6} grow>
-        <Button variant="default" size="xs" leftSection={<IconCopy size={15} />} onClick={() => void duplicateSelection()}>Duplicate</Button>
-        <Button variant="default" size="xs" c="red" leftSection={<IconTrash size={15} />} onClick={() => void removeSelection()}>Delete</Button>
+        <Button variant="default" size="xs" px={8} leftSection={<IconCopy size={15} />} onClick={() => void duplicateSelection()}>Duplicate</Button>
+        <Button variant="default" size="xs" px={8} c="red" leftSection={<IconTrash size={15} />} onClick={() => void removeSelection()}>Delete</Button>
       </Group>
     </div>
   );
@@ -54,7 +66,7 @@ function describe(scene: Pick<Scene, 'objects' | 'unit'>, path: string): string 
   const object = objectAt(scene, leafOf(path));
   const box = worldBox(scene, path);
   const parts = [
-    object?.shape ?? `${object?.children.length ?? 0} parts`,
+    (object?.shape === 'brep' ? 'CAD part' : object?.shape) ?? `${object?.children.length ?? 0} parts`,
     object?.faces ? `${object.faces} faces` : object?.triangles ? `${object.triangles.toLocaleString('en')} triangles` : null,
     box && !box.isEmpty() ? `${box.max.clone().sub(box.min).toArray().map((x) => short(x, 3)).join(' × ')} ${scene.unit}` : null,
   ];

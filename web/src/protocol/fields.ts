@@ -68,6 +68,7 @@ export function unitOf(field: Field, lengthUnit: string): string {
 
 // `base_color` as people read it.
 export function labelOf(name: string): string {
+  if (name === 'ior') return 'Index of refraction';
   const words = name.replaceAll('_', ' ');
   return words.charAt(0).toUpperCase() + words.slice(1);
 }

@@ -2,7 +2,7 @@
 // have the form of scene files (docs/scene_format.md) are records, whose fields the page reads from their tables (fields.ts).
 import type * as replies from './generated/replies';
 
-export type { Bounds, Exported, Failure, FileEntry, Files, Incoming, LibraryMaterial, Picked, Progress, Replayed, SceneObject, Tree, Welcome } from './generated/replies';
+export type { Bounds, ChangedObject, Exported, Failure, FileEntry, Files, Incoming, LibraryMaterial, Picked, Progress, Replayed, SceneObject, Tree, Welcome } from './generated/replies';
 
 export type Vector = [number, number, number];
 export type Values = Record<string, unknown>;
@@ -18,7 +18,7 @@ export type Camera = {
 };
 
 // The whole scene: what was told when it was opened, with all that edits have changed since.
-export type Scene = Omit<replies.Scene, 'opened' | 'warnings' | 'bounds' | 'objects' | 'roots' | 'materials' | 'lights' | 'camera' | 'environment' | 'settings'> & {
+export type Scene = Omit<replies.Scene, 'opened' | 'warnings' | 'changed' | 'gone' | 'bounds' | 'objects' | 'roots' | 'materials' | 'lights' | 'camera' | 'environment' | 'settings'> & {
   bounds: replies.Bounds | null;
   objects: replies.SceneObject[];
   roots: number[];

@@ -51,7 +51,7 @@ export class Connection {
     const session = sessionStorage.getItem(sessionKey);
     const url = address('socket', session ? { session } : {}).replace(/^http/, 'ws');
     this.listener.state(this.attempts === 0 ? 'connecting' : 'lost');
-    const socket = new WebSocket(url, 'crescente.1');
+    const socket = new WebSocket(url, 'crescente.2');
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
       this.attempts = 0;

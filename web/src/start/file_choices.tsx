@@ -17,7 +17,7 @@ export function FileChoices() {
   return (
     <Stack gap="lg">
       {failure && (
-        <Alert color="red" variant="light" icon={<IconAlertTriangle />} title={<Text span inherit c="var(--mantine-color-text)">{failure.file} could not be opened</Text>} role="alert" data-testid="open-failure">
+        <Alert color="red" variant="light" icon={<IconAlertTriangle />} title={<Text span inherit c="var(--mantine-color-text)">{failure.file.replace(/^upload\//, '')} could not be opened</Text>} role="alert" data-testid="open-failure">
           {failure.failure.problems.map((problem, i) => (
             <Text key={i} size="sm">{[problem.place, problem.reason, problem.hint].filter(Boolean).join(' – ')}</Text>
           ))}
@@ -70,7 +70,7 @@ function Choices({ title, header, children }: { title: string; header?: ReactNod
     <section className="card" style={{ padding: '12px 6px 8px' }} aria-label={title}>
       <Title order={2} size="sm" fw={600} px={12} mb={6}>{title}</Title>
       {header}
-      <div style={{ maxHeight: 330, overflowY: 'auto' }}>{children}</div>
+      <div style={{ maxHeight: '21rem', overflowY: 'auto' }}>{children}</div>
     </section>
   );
 }

@@ -2,7 +2,7 @@
 import type { Named, Outgoing } from '../protocol/messages';
 import { ask } from './session';
 import { leafOf } from './tree';
-import { get, set } from './store';
+import { get, set, useStore, type Store } from './store';
 
 let gestures = 0;
 
@@ -39,6 +39,35 @@ export class Drag {
     this.busy = false;
   }
 }
+
+let turn: Promise<unknown> = Promise.resolve();
+
+// An edit of which a part is as it is now, such as two of three coordinates. It is made once the page knows what those before it did: two boxes that are filled in quickly are two changes. make: null where there is nothing to
+// be edited any more.
+export function editInTurn(make: () => Outgoing | null, title: string): Promise<boolean> {
+  const done = turn.then(async () => {
+    const verb = make();
+    const answer = verb && (await ask(verb));
+    if (!answer?.edited) return false;
+    set({ lastEdit: title });
+    await known(answer.edited.revision);
+    return true;
+  });
+  turn = done.catch(() => undefined);
+  return done;
+}
+
+// Once the page has the scene of that revision, or has lost the connection.
+const known = (revision: number) =>
+  new Promise<void>((resolve) => {
+    const is = ({ scene, connection }: Store) => connection !== 'open' || !scene || scene.revision >= revision;
+    if (is(get())) return resolve();
+    const stop = useStore.subscribe((state) => {
+      if (!is(state)) return;
+      stop();
+      resolve();
+    });
+  });
 
 // How materials and lights are called in a path of `set`: by name, one without a name by its index.
 export const callName = (thing: Named | undefined, index: number) => thing?.name || String(index);

@@ -1,4 +1,4 @@
-// New lights: above the model and to its front left, aimed at its middle, bright enough to be seen at once.
+// New lights: above the model and to its front left, where one sees them, aimed at its middle, bright enough to be seen at once.
 import { Vector3 } from 'three';
 import type { Named, Scene } from '../protocol/messages';
 import { boxOf } from './tree';
@@ -14,11 +14,13 @@ export const lightKinds = [
 
 const metres: Record<string, number> = { um: 1e-6, mm: 1e-3, cm: 1e-2, m: 1, km: 1e3, in: 0.0254, ft: 0.3048 };
 
-export function newLight(scene: Scene, kind: string): Named {
+// intoSight: the nearest place like that one which is seen.
+export function newLight(scene: Scene, kind: string, intoSight: (place: Vector3) => Vector3): Named {
   const box = scene.bounds ? boxOf(scene.bounds) : null;
   const middle = box ? box.getCenter(new Vector3()) : new Vector3();
   const radius = box ? box.getSize(new Vector3()).length() / 2 : 1;
-  const offset = new Vector3(-0.9, 1.5, 1.2).multiplyScalar(radius);
+  const usual = new Vector3(-0.9, 1.5, 1.2).multiplyScalar(radius).add(middle);
+  const offset = (kind === 'directional' ? usual : intoSight(usual)).clone().sub(middle);
   const distance = offset.length() * (metres[scene.unit] ?? 1);
   const named = new Set(scene.lights.map((light) => light.name));
   let number = 1;

@@ -1,6 +1,6 @@
 // The one connection of the page, and what its messages do to the store.
 import { Connection, ConnectionLost, Refused } from '../protocol/socket';
-import type { Incoming, Outgoing, Scene } from '../protocol/messages';
+import type { ChangedObject, Incoming, Outgoing, Scene, SceneObject } from '../protocol/messages';
 import { complain, mention } from './notices';
 import { shared } from './share';
 import { get, set } from './store';
@@ -65,17 +65,35 @@ function receive(message: Incoming): void {
   if (message.closed) set({ closedReason: message.closed.reason });
 }
 
-function receiveScene({ opened, warnings, ...members }: NonNullable<Incoming['scene']>): void {
+function receiveScene({ opened, warnings, changed, gone, ...members }: NonNullable<Incoming['scene']>): void {
   const { scene: old, opening } = get();
   for (const warning of warnings ?? []) mention(warning);
   if (old && !opened) {
-    set({ scene: shared(old, { ...old, ...members } as Scene) });
+    const news = shared(pick(old, members), members);
+    set({ scene: { ...old, ...news, objects: changedObjects(old.objects, changed ?? [], gone ?? []) } as Scene });
     return;
   }
   const again = old !== null && opening === null && old.file === members.file;
   set({ scene: members as Scene, opening: null, openFailure: null });
   if (!again) set({ selection: [], hovered: null, light: null, isolated: null, replayed: null, pixel: null, point: null, lastEdit: null, layer: 'color', expanded: new Set((members.roots ?? []).map(String)) });
   document.title = `${titleOf(members as Scene)} – Crescente`;
+}
+
+// Those members of the scene that the message has, too.
+const pick = (scene: Scene, members: object) => Object.fromEntries(Object.entries(scene).filter(([name]) => name in members));
+
+// Objects that are as they were keep their identity, and so does the list if all are.
+function changedObjects(objects: SceneObject[], changed: ChangedObject[], gone: number[]): SceneObject[] {
+  if (changed.length === 0 && gone.length === 0) return objects;
+  const news = new Map(changed.map((object) => [object.index, object]));
+  const left = new Set(gone);
+  const kept = objects.filter(({ index }) => !left.has(index)).map((object) => {
+    const differs = news.get(object.index);
+    news.delete(object.index);
+    return differs ? { ...object, ...differs } : object;
+  });
+  // What is left is new, with all its members.
+  return [...kept, ...(news.values() as Iterable<SceneObject>)].sort((a, b) => a.index - b.index);
 }
 
 // What the scene is called: by itself, or as its file.

@@ -50,7 +50,10 @@ export class Navigation {
 
   // Moves on by so many seconds; true while there is motion.
   step(seconds: number): boolean {
-    return this.controls.update(seconds);
+    const moving = this.controls.update(seconds);
+    // Turned about a point aside, the camera is put beside it along the axes that it had before the turn: once more, along those of now.
+    if (this.controls.getFocalOffset(new Vector3(), false).lengthSq() > 0) this.controls.update(0);
+    return moving;
   }
 
   resize(aspect: number): void {
@@ -117,6 +120,17 @@ export class Navigation {
     sphere.radius = Math.max(sphere.radius, 1e-9) / filled / this.shareOfSmaller(share);
     void this.controls.fitToSphere(sphere, animated);
     void this.controls.setFocalOffset(0, 0, 0, animated);
+  }
+
+  // The nearest place at the same depth that is seen in that share of the view; what lies behind the viewer, or close to him, comes halfway to the target.
+  intoView(place: Vector3, share: Share): Vector3 {
+    this.camera.updateMatrixWorld();
+    const own = place.clone().applyMatrix4(this.camera.matrixWorldInverse);
+    if (this.camera instanceof PerspectiveCamera && own.z > -0.1 * this.controls.distance) own.z = -0.5 * this.controls.distance;
+    const seen = own.applyMatrix4(this.camera.projectionMatrix);
+    seen.x = MathUtils.clamp(seen.x, -Math.max(share.width, 0), Math.max(share.width, 0));
+    seen.y = MathUtils.clamp(seen.y, -Math.max(share.height, 0), Math.max(share.height, 0));
+    return seen.unproject(this.camera);
   }
 
   // Where the box is about within the view, but not within that share of it: goes back until it is.

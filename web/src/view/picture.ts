@@ -37,7 +37,7 @@ export class Picture {
     }
     frame.parts.forEach((part, i) => {
       this.context.clearRect(part.x, part.y, part.width, part.height);
-      this.context.drawImage(images[i], part.x, part.y);
+      this.context.drawImage(images[i], part.x, part.y, part.width, part.height); // it may have fewer pixels
       images[i].close();
     });
     this.look = frame.look;

@@ -20,6 +20,8 @@ import type { Camera, Scene } from '../protocol/messages';
 
 const colors = { selected: 0xf5b942, hovered: 0xffffff, light: 0xffe08a };
 const turntableDegreesPerSecond = 20;
+const handleReach = 0.12; // of the height of the view: what three's handles take to each side
+const usualFrame = 1 / 60; // seconds
 
 // What of the state is drawn over the picture.
 const drawnFrom = ({ scene, selection, hovered, tool, light, snap, rightOpen, rightTab }: Store) => [scene?.objects, scene?.lights, scene?.bounds, selection, hovered, tool, light, snap, rightOpen, rightTab];
@@ -39,11 +41,11 @@ export class Stage {
   private size = { width: 1, height: 1 };
   private looks = 0;
   private cameras = new Map<number, WholeCamera>(); // by the number of `look`s
-  private told: string | null = null;
+  private told: WholeCamera | null = null;
   private request = 0;
   private time = 0;
 
-  constructor(private readonly element: HTMLElement, cubePlace: HTMLElement) {
+  constructor(private readonly element: HTMLElement, private readonly cubePlace: HTMLElement) {
     this.picture = new Picture((frame) => {
       send({ shown: frame.number });
       for (const look of this.cameras.keys()) if (look < frame.look) this.cameras.delete(look);
@@ -135,6 +137,20 @@ export class Stage {
     this.wake();
   }
 
+  // The nearest place at the same depth that neither a panel nor the cube covers, with room about it for the handles of what stands there.
+  intoSight(place: Vector3): Vector3 {
+    const share = freeShare(this.element);
+    const reach = handleReach * this.size.height;
+    const room = { width: share.width - (2 * reach) / this.size.width, height: share.height - 2 * handleReach };
+    const seen = this.navigation.intoView(place, room);
+    const { x, y } = seen.clone().project(this.navigation.camera);
+    const cube = this.cubePlace.getBoundingClientRect();
+    const view = this.element.getBoundingClientRect();
+    const left = ((cube.left - view.left - reach / 2) / view.width) * 2 - 1;
+    const bottom = 1 - ((cube.bottom - view.top + reach / 2) / view.height) * 2;
+    return x > left && y > bottom ? this.navigation.intoView(seen, { ...room, width: left }) : seen;
+  }
+
   look(from: StandardView): void {
     this.navigation.look(from, freeShare(this.element));
     this.wake();
@@ -146,7 +162,8 @@ export class Stage {
 
   private beat(now: number): void {
     this.request = 0;
-    const seconds = this.time === 0 ? 0 : Math.min((now - this.time) / 1000, 0.1);
+    // What begins to move does so in this very frame.
+    const seconds = this.time === 0 ? usualFrame : Math.min((now - this.time) / 1000, 0.1);
     const state = get();
     if (state.turntable) this.navigation.turn(turntableDegreesPerSecond * seconds, 0, false);
     const moving = this.navigation.step(seconds);
@@ -162,14 +179,13 @@ export class Stage {
     if (this.time !== 0) this.wake();
   }
 
-  // Tells the program a camera that it does not know yet.
+  // Tells the program a camera that it does not know yet. One that differs by less than can be seen, as motion does that comes to its end, is none.
   private tellCamera(): void {
     if (!get().scene) return;
     const camera = this.navigation.get();
-    const text = JSON.stringify(camera);
-    if (text === this.told) return;
+    if (this.told && sameCamera(this.told, camera)) return;
     if (!send({ look: camera })) return;
-    this.told = text;
+    this.told = camera;
     this.cameras.set(++this.looks, camera);
   }
 
@@ -210,7 +226,7 @@ export class Stage {
     // Until the camera is moved, the picture is seen by the one of the scene.
     const camera = this.navigation.get();
     this.cameras.set(this.looks, camera);
-    this.told = JSON.stringify(camera);
+    this.told = camera;
     this.makeRoom(scene);
     set({ orthographic: scene.camera.projection === 'orthographic' });
     this.refresh(state);

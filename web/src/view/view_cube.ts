@@ -1,15 +1,16 @@
 // The cube that shows how the view stands and turns it: three-viewport-gizmo on a canvas of its own.
 import { WebGLRenderer } from 'three';
 import { ViewportGizmo } from 'three-viewport-gizmo';
+import { rem } from '../sizes';
 import type { Navigation } from './navigation';
 
-const size = 104;
 
 export class ViewCube {
   private readonly renderer: WebGLRenderer;
   private readonly gizmo: ViewportGizmo;
 
   constructor(container: HTMLElement, private readonly navigation: Navigation, moved: () => void) {
+    const size = rem(6.5); // of its place
     this.renderer = new WebGLRenderer({ alpha: true, antialias: true });
     this.renderer.setClearColor(0, 0);
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));

@@ -14,13 +14,16 @@ export function warp(from: WholeCamera, picture: Size, to: WholeCamera, view: Si
 
 const scaled = (picture: Size, view: Size) => `scale(${view.width / picture.width}, ${view.height / picture.height})`;
 
+// Thousandths of a pixel are not seen.
+const unseen = 1e-6; // of the distance, and of radians
+
 export function sameCamera(a: WholeCamera, b: WholeCamera): boolean {
-  if (a.projection !== b.projection || halfHeight(a) !== halfHeight(b)) return false;
+  if (a.projection !== b.projection || Math.abs(halfHeight(a) - halfHeight(b)) > unseen * halfHeight(a)) return false;
   const near = (p: number[], q: number[], tolerance: number) => p.every((x, i) => Math.abs(x - q[i]) <= tolerance);
   const scale = Math.hypot(...a.position.map((x, i) => x - a.target[i]));
   const fa = frameOf(a);
   const fb = frameOf(b);
-  return near(a.position, b.position, scale * 1e-9) && near(fa.forward.toArray(), fb.forward.toArray(), 1e-9) && near(fa.up.toArray(), fb.up.toArray(), 1e-9);
+  return near(a.position, b.position, scale * unseen) && near(fa.forward.toArray(), fb.forward.toArray(), unseen) && near(fa.up.toArray(), fb.up.toArray(), unseen);
 }
 
 // Null where the plane passes behind the new camera.

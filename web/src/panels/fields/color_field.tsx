@@ -36,7 +36,7 @@ export function ColorField({ field, value, onChange }: Props) {
           draft.end();
           onChange(linear(hex), false);
         }}
-        styles={{ input: { height: 26, minHeight: 26 } }}
+        styles={{ input: { height: '1.625rem', minHeight: '1.625rem' } }}
         data-testid={`color-${field.name}`}
       />
     </Group>

@@ -9,6 +9,9 @@ import { FieldLabel, NumberField } from './number_field';
 import type { Change } from './use_drag';
 import { VectorField } from './vector_field';
 
+// The vector with another value on one axis.
+const withAxis = (vector: Vector, axis: number, to: number) => vector.map((old, i) => (i === axis ? to : old)) as Vector;
+
 export function FieldList({ fields, values, lengthUnit, onChange }: { fields: Field[]; values: Values; lengthUnit: string; onChange: Change }) {
   return (
     <Stack gap={9}>
@@ -29,7 +32,7 @@ const FieldControl = memo(function FieldControl({ field, value, lengthUnit, onCh
     case 'color':
       return <ColorField field={field} value={value} onChange={(x, ongoing) => onChange(field.name, x, ongoing)} />;
     case 'vector':
-      return <VectorField field={field} value={linearOf(value) as Vector} unit={unit} onChange={(x) => onChange(field.name, x, false)} />;
+      return <VectorField field={field} value={linearOf(value) as Vector} unit={unit} onCommit={(axis, to) => onChange(field.name, (now: unknown) => withAxis(linearOf(now ?? field.default) as Vector, axis, to), false)} />;
     case 'boolean':
       return (
         <Group gap={6} wrap="nowrap">

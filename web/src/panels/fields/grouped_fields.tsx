@@ -24,7 +24,7 @@ export function GroupedFields({ fields, first, groups, ...rest }: Props) {
   return (
     <>
       <FieldList fields={shown} {...rest} />
-      <Accordion multiple variant="default" mt="xs" styles={{ control: { paddingInline: 0, minHeight: 32 }, label: { paddingBlock: 6, fontSize: 13 }, content: { paddingInline: 0 }, item: { borderColor: 'var(--line)' } }}>
+      <Accordion multiple variant="default" mt="xs" styles={{ control: { paddingInline: 0, minHeight: '2rem' }, label: { paddingBlock: '0.375rem', fontSize: '0.8125rem' }, content: { paddingInline: 0 }, item: { borderColor: 'var(--line)' } }}>
         {parts.map(({ title, own }) => (
           <Accordion.Item key={title} value={title}>
             <Accordion.Control>{title}</Accordion.Control>

@@ -26,7 +26,7 @@ export function NumberBox({ value, onCommit, label, unit, digits = 4, ...rest }:
       suffix={unit ? ` ${unit}` : undefined}
       aria-label={label}
       hideControls
-      styles={{ input: { height: 24, minHeight: 24, textAlign: 'right', paddingInline: 6, fontVariantNumeric: 'tabular-nums' } }}
+      styles={{ input: { height: '1.5rem', minHeight: '1.5rem', textAlign: 'right', paddingInline: '0.375rem', fontVariantNumeric: 'tabular-nums' } }}
     />
   );
 }

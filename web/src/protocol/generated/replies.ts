@@ -34,7 +34,7 @@ export interface Incoming {
  */
 export interface Welcome {
   version: string;
-  protocol: 1;
+  protocol: 2;
   session: string;
   taken_up: boolean;
   limits: {
@@ -110,7 +110,7 @@ export interface FileEntry {
   time?: number;
 }
 /**
- * All of the scene but geometry; after edits only what they changed
+ * All of the scene but geometry; after edits what they changed
  */
 export interface Scene {
   name: string;
@@ -129,6 +129,8 @@ export interface Scene {
   }[];
   bounds?: Bounds | null;
   objects?: SceneObject[];
+  changed?: ChangedObject[];
+  gone?: number[];
   roots?: number[];
   ground?: 'solid' | 'catch' | 'none';
   materials?: Material[];
@@ -178,6 +180,34 @@ export interface SceneObject {
   } | null;
   children: number[];
 }
+export interface ChangedObject {
+  index: number;
+  name?: string;
+  visible?: boolean;
+  shape?: string | null;
+  triangles?: number;
+  faces?: number;
+  material?: number | null;
+  materials?: (number | null)[];
+  /**
+   * @minItems 12
+   * @maxItems 12
+   */
+  transform?: [number, number, number, number, number, number, number, number, number, number, number, number];
+  bounds?: {
+    /**
+     * @minItems 3
+     * @maxItems 3
+     */
+    low: [number, number, number];
+    /**
+     * @minItems 3
+     * @maxItems 3
+     */
+    high: [number, number, number];
+  } | null;
+  children?: number[];
+}
 /**
  * An edit is done
  */
@@ -186,6 +216,7 @@ export interface Edited {
   seconds: number;
   can_undo: number;
   can_redo: number;
+  revision: number;
 }
 export interface Picked {
   path: number[];
