@@ -3,10 +3,12 @@
 //   scene_twin FOLDER MODEL [options of crescente render]
 //
 // Writes FOLDER/scene.json and FOLDER/meshes.bin. CAD files are told as triangles (2e-4 of each part's diagonal at most from the surface, true normals at
-// their corners), with the camera and the lights that the exact model gets. Textures are not told: who needs them reads them from the model's file.
-#include <cstdio>
+// their corners), with the camera and the lights that the exact model gets. Textures are not told, and of glTF files no materials: who needs them reads them from the model's file.
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -14,6 +16,7 @@
 #include "app/cli/load.h"
 #include "io/cad_reader.h"
 #include "io/cad_scene.h"
+#include "render/fresnel.h"
 #include "render/lobes.h"
 #include "scene/hierarchy.h"
 #include "scene/validate.h"
@@ -73,19 +76,28 @@ std::optional<Json> told(const geometry::Shape& shape, Numbers& numbers) {
     return std::nullopt;
 }
 
+// Of a metal that is given by its complex index, what it reflects at normal incidence is told as its color.
 std::optional<Json> told(const scene::Material& material) {
-    scene::PhysicalMaterial matt;  // what a classic material comes to that only scatters evenly
-    const auto* m = std::get_if<scene::PhysicalMaterial>(&material.model);
-    if (!m) {
+    scene::PhysicalMaterial m;
+    if (const auto* physical = std::get_if<scene::PhysicalMaterial>(&material.model)) {
+        m = *physical;
+    } else {  // what a classic material comes to that only scatters evenly
         const auto& classic = std::get<scene::ClassicMaterial>(material.model);
         scene::ClassicMaterial evenly;
         evenly.diffuse = classic.diffuse;
         if (classic != evenly) return std::nullopt;
-        matt.base_color = classic.diffuse, matt.ior = 1, matt.roughness = 1;
-        m = &matt;
+        m.base_color = classic.diffuse, m.ior = 1, m.roughness = 1;
     }
-    return Json{{"name", material.name}, {"base_color", told(m->base_color)}, {"metallic", m->metallic}, {"roughness", m->roughness}, {"emissive", told(m->emissive)}, {"ior", m->ior},
-                {"transmission", m->transmission}, {"clearcoat", m->clearcoat}, {"clearcoat_roughness", m->clearcoat_roughness}, {"opacity", m->opacity}};
+    if (m.k != Rgb{} && m.metallic == 1) m.base_color *= render::fresnel_conductor(1, std::exchange(m.eta, {}), std::exchange(m.k, {}));
+    const scene::PhysicalMaterial plain;
+    scene::PhysicalMaterial untold = m;
+    untold.base_color = plain.base_color, untold.metallic = plain.metallic, untold.roughness = plain.roughness, untold.emissive = plain.emissive, untold.ior = plain.ior;
+    untold.transmission = plain.transmission, untold.clearcoat = plain.clearcoat, untold.clearcoat_roughness = plain.clearcoat_roughness, untold.opacity = plain.opacity;
+    untold.double_sided = plain.double_sided;
+    if (m.sheen_color == Rgb{}) untold.sheen_roughness = plain.sheen_roughness;
+    if (untold != plain || !material.textures.empty()) return std::nullopt;
+    return Json{{"name", material.name}, {"base_color", told(m.base_color)}, {"metallic", m.metallic}, {"roughness", m.roughness}, {"emissive", told(m.emissive)}, {"ior", m.ior},
+                {"transmission", m.transmission}, {"clearcoat", m.clearcoat}, {"clearcoat_roughness", m.clearcoat_roughness}, {"opacity", m.opacity}};
 }
 
 std::optional<Json> told(const scene::Light& light) {
@@ -116,23 +128,23 @@ Json layer_table() {
     return rows;
 }
 
-// What the exact model gets from the studio, put about its triangles.
-Expected<void> tessellate(const std::string& file, scene::Scene& scene) {
-    const auto model = io::read_cad_anew(file, {deflection, {}}, {});
-    if (!model) return tl::unexpected<Error>(model.error());
-    std::vector<io::UntraceableFace> none;
-    scene::Scene triangles = io::cad_scene(*model, none).scene;
-    if (!scene.roots.empty() && scene.nodes[scene.roots.back().value].name == "studio ground") {
-        scene::Node ground = scene.nodes[scene.roots.back().value];
-        triangles.materials.push_back(scene.materials[ground.materials[0].value]);
-        triangles.shapes.push_back(scene.shapes[ground.shape.value]);
-        ground.materials[0].value = static_cast<std::uint32_t>(triangles.materials.size() - 1);
-        ground.shape.value = static_cast<std::uint32_t>(triangles.shapes.size() - 1);
-        triangles.roots.push_back({static_cast<std::uint32_t>(triangles.nodes.size())});
-        triangles.nodes.push_back(ground);
+// Triangles in place of exact faces; all else stays as it was put about these.
+Expected<void> tessellate(io::Loaded& loaded) {
+    std::map<std::filesystem::path, scene::Scene> files;
+    for (const auto& [shape, source] : loaded.sources) {
+        if (!files.contains(source.file)) {
+            const auto model = io::read_cad_anew(source.file, {deflection, {}}, {});
+            if (!model) return tl::unexpected<Error>(model.error());
+            std::vector<io::UntraceableFace> none;
+            files[source.file] = io::cad_scene(*model, none).scene;
+        }
+        const auto& triangles = files[source.file].shapes;
+        auto& exact = loaded.scene.shapes[shape];
+        if (source.index >= triangles.size() || !std::holds_alternative<geometry::Mesh>(triangles[source.index].shape)) {
+            return failure(ErrorKind::input, {source.file.string(), exact.name, "has no triangles", ""});
+        }
+        exact.shape = triangles[source.index].shape;
     }
-    triangles.lights = scene.lights, triangles.camera = scene.camera, triangles.environment = scene.environment, triangles.settings = scene.settings;
-    scene = std::move(triangles);
     return {};
 }
 
@@ -141,7 +153,8 @@ int fail(const Error& error) {
     return 1;
 }
 
-int write(const scene::Scene& scene, const std::string& folder) {
+// with_materials: false where who is told has them from the model's file.
+int write(const scene::Scene& scene, const std::string& folder, bool with_materials) {
     Json json;
     Problems untold;
     const auto keep = [&](Json& list, std::optional<Json> value, const std::string& name, const char* reason) {
@@ -153,7 +166,9 @@ int write(const scene::Scene& scene, const std::string& folder) {
     json["camera"] = {{"position", told(camera.position)}, {"target", told(camera.target)}, {"up", told(camera.up)}, {"field_of_view", camera.field_of_view}};
     json["size"] = {scene.settings.width, scene.settings.height};
     json["materials"] = json["lights"] = json["shapes"] = json["objects"] = Json::array();
-    for (const auto& m : scene.materials) keep(json["materials"], told(m), m.name, "only physical materials, and classic ones with nothing but a diffuse share, are told");
+    for (const auto& m : scene.materials) {
+        if (with_materials) keep(json["materials"], told(m), m.name, "only plain physical materials, and classic ones with nothing but a diffuse share, are told");
+    }
     for (const auto& light : scene.lights) keep(json["lights"], told(light), light.name, "only rectangles with one side are told");
     if (scene.environment) json["environment"] = told(*scene.environment);
     Numbers numbers;
@@ -181,11 +196,9 @@ int main(int argc, char** argv) {
     if (!request) return fail(request.error());
     auto loaded = app::load(*request, {});
     if (!loaded) return fail(loaded.error());
-    const bool exact = std::any_of(loaded->scene.shapes.begin(), loaded->scene.shapes.end(), [](const auto& s) { return std::holds_alternative<geometry::Brep>(s.shape); });
-    if (exact) {
-        if (const auto made = tessellate(request->file, loaded->scene); !made) return fail(made.error());
-    }
-    return write(loaded->scene, folder);
+    if (const auto made = tessellate(*loaded); !made) return fail(made.error());
+    const auto extension = std::filesystem::path(request->file).extension();
+    return write(loaded->scene, folder, extension != ".glb" && extension != ".gltf");
 }
 
 }  // namespace

@@ -50,9 +50,9 @@ struct Request {
     std::optional<Pixel> replay, pick;
 };
 
-// Wall time of the parts of a run, seconds; cpu: of all threads.
+// Wall time of the parts of a run, seconds; cpu: of all threads, cpu_render: of building and rendering.
 struct RunTimes {
-    double load = 0, render = 0, write = 0, total = 0, cpu = 0;
+    double load = 0, render = 0, write = 0, total = 0, cpu = 0, cpu_render = 0;
 };
 
 // Why the picture stopped growing.
@@ -188,6 +188,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     const auto hash = io::content_hash(options.scene.file);
     if (!hash) return fail(hash.error());
     times.load = seconds_since(start);
+    const double cpu_loaded = cpu_seconds();
 
     const scene::Settings settings = loaded->scene.settings;
     for (const auto& [option, pixel] : {std::pair{"--replay", request->replay}, {"--pick", request->pick}}) {
@@ -211,6 +212,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
         ending = grow(*session, *request, stop, checkpoints, display);
     }
     times.render = seconds_since(render_start);
+    times.cpu_render = cpu_seconds() - cpu_loaded;
     if (ending == Ending::insisted) {
         note("stopped; nothing was written");
         return exit_stopped;
@@ -247,6 +249,7 @@ ExitCode render(const RenderOptions& options, const Invocation& invocation) {
     report["time"]["write"] = times.write;
     report["time"]["total"] = times.total;
     report["time"]["cpu"] = times.cpu;
+    report["time"]["cpu_render"] = times.cpu_render;
     if (!options.stats_file.empty()) {
         const std::string text = report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
         if (const auto written = write_atomically(options.stats_file, text); !written) return fail(written.error());
