@@ -71,9 +71,9 @@ Scattering::Scattering(const Lobes& lobes, const Facing& facing, Vec3 to_viewer,
 Scattering::FacetColors Scattering::facet(double cosine) const {
     FacetColors f;
     if (lobes_.transmits()) {
-        const Interface through = glass_interface(lobes_, cosine, eta_);
-        f.reflected = lobes_.mirror * through.reflected + schlick(lobes_.metal, lobes_.metal_share, cosine) + beyond_tables(lobes_, cosine);
-        if (!smooth_.refracts) f.transmitted = lobes_.refraction * through.through;
+        const Interface glass = glass_interface(lobes_, cosine, eta_);
+        f.reflected = lobes_.mirror * glass.reflected + schlick(lobes_.metal, lobes_.metal_share, cosine) + beyond_tables(lobes_, cosine);
+        if (!smooth_.refracts) f.transmitted = lobes_.refraction * glass.through;
     } else {
         f.reflected = facet_reflectance(lobes_, cosine);
     }

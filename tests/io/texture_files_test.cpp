@@ -226,7 +226,9 @@ TEST_F(TextureFiles, AWrittenSceneReadsBack) {
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(a[i].target, b[i].target);
         for (const auto& f : scene::Texture::fields()) EXPECT_EQ(f.get(a[i].texture), f.get(b[i].texture)) << f.info.name;
-        if (a[i].texture.image) EXPECT_EQ(a[i].texture.image->content(), b[i].texture.image->content());
+        if (a[i].texture.image) {
+            EXPECT_EQ(a[i].texture.image->content(), b[i].texture.image->content());
+        }
     }
     const auto& mesh = std::get<geometry::Mesh>(second->scene.shapes[0].shape);
     EXPECT_EQ(mesh.colors[2], (std::array<float, 4>{0, 0, 0.25f, 0.5f}));

@@ -23,8 +23,9 @@ TEST(CameraRays, ProjectUndoesThrough) {
             EXPECT_FALSE(rays.project(ray.origin - ray.direction * t)) << "behind the viewer";
             const auto far = rays.project_direction(ray.direction);
             ASSERT_EQ(bool(far), projection == scene::Projection::perspective);
-            if (far) EXPECT_NEAR(far->x, x, 1e-9);
-            if (far) EXPECT_NEAR(far->y, y, 1e-9);
+            if (!far) continue;
+            EXPECT_NEAR(far->x, x, 1e-9);
+            EXPECT_NEAR(far->y, y, 1e-9);
         }
     }
 }
