@@ -36,6 +36,22 @@ std::uint64_t key_of(Vec3 position) {
     return key;
 }
 
+constexpr std::uint8_t no_depth = 0xff;
+
+// How often pixels are split about each root: of the parts that have it as a corner, the largest counts. Empty: nowhere.
+std::vector<std::uint8_t> split_depths(const Tile& tile) {
+    std::vector<std::uint8_t> of_roots, of_quads(tile.quads.size());
+    if (of_quads.size() > static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height)) of_roots.assign(tile.nodes.size(), no_depth);
+    for (std::size_t q = 0; q < tile.quads.size() && !of_roots.empty(); ++q) {  // parts come after what they are parts of
+        const Quad& quad = tile.quads[q];
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            if (quad.parts != no_node) of_quads[quad.parts + k] = static_cast<std::uint8_t>(of_quads[q] + 1);
+            else if (quad.corners[k] != no_node) of_roots[quad.corners[k]] = std::min(of_roots[quad.corners[k]], of_quads[q]);
+        }
+    }
+    return of_roots;
+}
+
 class Sampling {
 public:
     Sampling(Growth& growth, const Stage& stage)
@@ -46,6 +62,7 @@ public:
           renews_(stage.parameter == renewal),
           most_(static_cast<std::uint32_t>(growth.settings().samples)),
           bound_(renews_ ? most_ : static_cast<std::uint32_t>(stage.parameter)),
+          depths_(bound_ < most_ ? split_depths(growth.tile()) : std::vector<std::uint8_t>{}),
           sampler_(growth.world(), growth.tile().rays, growth.tile().tests) {}
 
     bool run(const Deadline& deadline) {
@@ -56,14 +73,16 @@ public:
             const std::size_t furthest = std::min(tile_.nodes.size(), end + most_looked_at);
             for (; end < furthest && chunk_.size() < chunk_size; ++end) {
                 const auto i = static_cast<std::uint32_t>(end);
-                if (tile_.nodes[i].left_scene() || is_unseen(i)) continue;
+                const std::uint32_t root = tile_.nodes[i].left_scene() ? no_node : root_of_seen(i);
+                if (root == no_node) continue;
                 if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
                 forget_too_many(i);
-                if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i)) chunk_.push_back(i);
+                const std::uint32_t bound = bound_below(root);
+                if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i, bound)) chunk_.push_back(i), bounds_.push_back(bound);
             }
             const bool complete = sample_chunk(deadline);
             show_chunk();
-            chunk_.clear();
+            chunk_.clear(), bounds_.clear();
             if (!complete) return false;
             tile_.cursor = end;
             if (deadline.passed() && end < tile_.nodes.size()) return false;
@@ -72,23 +91,29 @@ public:
     }
 
 private:
-    // Whether a node is no part of the picture: below what was hidden, or below rays that stand for lobes that are sampled.
-    bool is_unseen(std::uint32_t i) {
+    // no_node: the node is no part of the picture: below what was hidden, or below rays that stand for lobes that are sampled.
+    std::uint32_t root_of_seen(std::uint32_t i) {
         for (std::uint32_t above = tile_.nodes[i].parent; above != no_node; i = above, above = tile_.nodes[i].parent) {
-            if (tile_.nodes[i].hidden) return true;
+            if (tile_.nodes[i].hidden) return no_node;
             const Node& parent = tile_.nodes[above];
             const Smooth smooth = smooth_lobes_of(above);
-            if ((parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts)) return true;
+            if ((parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts)) return no_node;
         }
-        return false;
+        return i;
+    }
+
+    // A round gives a pixel about as many samples whether it is split or not, until the last gives every node what it needs.
+    std::uint32_t bound_below(std::uint32_t root) const {
+        if (depths_.empty() || depths_[root] == no_depth) return bound_;
+        return std::max(std::min(bound_, fewest_to_tell), bound_ >> (2 * depths_[root]));
     }
 
     Smooth smooth_lobes_of(std::uint32_t i) { return smooth_lobes(lobes_of(world_, tile_, i, scratch_)); }
 
-    std::uint32_t goal(std::uint32_t i) const {
+    std::uint32_t goal(std::uint32_t i, std::uint32_t bound) const {
         if (tile_.nodes[i].outdated) return tile_.samples[i];
-        if (bound_ <= pilot) return bound_;
-        return tile_.samples[i] < pilot ? pilot : std::min(bound_, samples_needed(world_, tile_, i));
+        if (bound <= pilot) return bound;
+        return tile_.samples[i] < pilot ? pilot : std::min(bound, samples_needed(world_, tile_, i));
     }
 
     // After an edit a node may have more samples than a fresh render would have given it.
@@ -111,7 +136,7 @@ private:
             wanting_.clear(), points_.clear();
             for (std::size_t k = 0; k < chunk_.size(); ++k) {
                 const std::uint32_t i = chunk_[k];
-                if (tile_.samples[i] >= goal(i)) continue;
+                if (tile_.samples[i] >= goal(i, bounds_[k])) continue;
                 wanting_.push_back(i), points_.push_back(chunk_points_[k]);
                 points_.back().index = tile_.samples[i];
             }
@@ -164,9 +189,10 @@ private:
     const std::size_t groups_;
     const bool renews_;
     const std::uint32_t most_, bound_;
+    const std::vector<std::uint8_t> depths_;
     PathSampler sampler_;
     Lobes scratch_;  // of a textured material
-    std::vector<std::uint32_t> chunk_, wanting_;
+    std::vector<std::uint32_t> chunk_, bounds_, wanting_;  // bounds_: of samples, this round, of each of the chunk
     std::vector<SamplePoint> chunk_points_, points_;
     std::vector<Lobes> chunk_lobes_;  // of textured materials
     std::vector<Scattering> surfaces_;
