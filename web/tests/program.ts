@@ -114,3 +114,31 @@ export async function picture(page: Page): Promise<{ width: number; height: numb
   });
   return { width, height, data: Buffer.from(text, 'base64') };
 }
+
+// Keys pressed while the picture has the focus.
+export const press = async (page: Page, keys: string) => {
+  await page.getByTestId('stage').focus();
+  await page.keyboard.press(keys);
+};
+
+export const rested = (page: Page) => page.waitForTimeout(1000); // of a turn of the view
+
+export type Look = { position: number[]; target: number[]; up: number[]; projection: string; field_of_view: number; height: number };
+
+// The cameras that the page tells, as they come.
+export function cameras(page: Page): Look[] {
+  const told: Look[] = [];
+  page.on('websocket', (socket) => socket.on('framesent', ({ payload }) => {
+    const { look } = JSON.parse(String(payload)) as { look?: Look };
+    if (look) told.push(look);
+  }));
+  return told;
+}
+
+// Until the view has come to rest.
+export async function settled(page: Page, told: unknown[]): Promise<void> {
+  for (let before = -1; before !== told.length; ) {
+    before = told.length;
+    await rested(page);
+  }
+}

@@ -2,41 +2,18 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { PNG } from 'pngjs';
-import { converged, expect, folder, growTo, model, pixels, run, test, visit } from './program';
+import { cameras, converged, expect, folder, growTo, model, pixels, press, rested, run, settled, test, visit } from './program';
 import type { Page } from '@playwright/test';
 
 const middle = { x: 545, y: 300 }; // on the plate of the model
-const press = async (page: Page, keys: string) => {
-  await page.getByTestId('stage').focus();
-  await page.keyboard.press(keys);
-};
 const rows = (page: Page) => page.getByRole('treeitem');
 const selected = (page: Page) => page.locator('[role=treeitem][aria-selected=true]');
-const rested = (page: Page) => page.waitForTimeout(1000); // of a turn of the view
 const undoAll = async (page: Page) => {
   while (await page.getByTestId('undo').isEnabled()) {
     await page.getByTestId('undo').click();
     await page.waitForTimeout(150);
   }
 };
-
-// The cameras that the page tells, as they come.
-function cameras(page: Page): { position: number[]; target: number[]; projection: string; height: number }[] {
-  const told: { position: number[]; target: number[]; projection: string; height: number }[] = [];
-  page.on('websocket', (socket) => socket.on('framesent', ({ payload }) => {
-    const { look } = JSON.parse(String(payload)) as { look?: (typeof told)[0] };
-    if (look) told.push(look);
-  }));
-  return told;
-}
-
-// Until the view has come to rest.
-async function settled(page: Page, told: unknown[]): Promise<void> {
-  for (let before = -1; before !== told.length; ) {
-    before = told.length;
-    await rested(page);
-  }
-}
 
 test('views: from the menu, kept by name, turntable, the other projection', async ({ page, start }) => {
   const told = cameras(page);

@@ -21,6 +21,7 @@ export class Pointer {
   private hovering = false;
   private nextHover: PointerEvent | null = null;
   private lastWheel = 0;
+  private chosen: Promise<void> = Promise.resolve(); // once what was clicked last is selected
   private readonly stop = new AbortController();
 
   constructor(private readonly element: HTMLElement, private readonly stage: Stage) {
@@ -28,7 +29,9 @@ export class Pointer {
       element.addEventListener(type, listener, { signal: this.stop.signal, capture, passive: type === 'wheel' ? true : undefined });
     on('pointerdown', (event) => this.press(event), true);
     on('pointermove', (event) => this.move(event));
-    on('pointerup', (event) => void this.release(event));
+    on('pointerup', (event) => {
+      this.chosen = this.release(event);
+    });
     on('pointercancel', (event) => this.lift(event));
     on('pointerleave', (event) => {
       this.pressed.delete(event.pointerId);
@@ -36,7 +39,7 @@ export class Pointer {
       hover(null);
     });
     on('dblclick', (event) => {
-      if (!onHandle(event)) this.stage.fit();
+      if (!onHandle(event)) void this.chosen.then(() => this.stage.fit());
     });
     on('wheel', (event) => void this.wheel(event), true);
     on('dragover', (event) => {
