@@ -25,3 +25,6 @@ export function seconds(s: number): string {
 
 // To so many digits, without noughts at the end.
 export const short = (x: number, digits = 4) => (Math.abs(x) >= 1e6 ? x.toExponential(Math.min(digits, 3) - 1).replace('e+', 'e') : String(Number(x.toPrecision(digits))));
+
+// The same without an exponent, as boxes for numbers take it.
+export const decimal = (x: number, digits = 4) => new Intl.NumberFormat('en', { useGrouping: false, maximumSignificantDigits: digits }).format(x + 0);

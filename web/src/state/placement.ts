@@ -14,7 +14,7 @@ function partsOf(object: SceneObject) {
 export function placementOf(object: SceneObject): { position: Vector; degrees: Vector } {
   const { position, rotation } = partsOf(object);
   const turn = new Euler().setFromQuaternion(rotation, 'XYZ');
-  const clean = (x: number) => Number(x.toPrecision(7)) + 0;
+  const clean = (x: number) => Number(Number(x.toPrecision(7)).toFixed(6)) + 0; // what is left of turning and back is no place
   return {
     position: [clean(position.x), clean(position.y), clean(position.z)],
     degrees: [turn.x, turn.y, turn.z].map((angle) => Number(MathUtils.radToDeg(angle).toFixed(4)) + 0) as Vector,
