@@ -220,6 +220,7 @@ test('two pages have a session each', async ({ page, context, start }) => {
   }
   const before = await pixels(other);
   await page.mouse.click(middle.x, middle.y);
+  await expect(selected(page)).toHaveCount(1);
   await press(page, 'h');
   await converged(page, before);
   await expect(page.locator('[role=treeitem][data-hidden=true]')).not.toHaveCount(0);
