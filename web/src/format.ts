@@ -27,4 +27,7 @@ export function seconds(s: number): string {
 export const short = (x: number, digits = 4) => (Math.abs(x) >= 1e6 ? x.toExponential(Math.min(digits, 3) - 1).replace('e+', 'e') : String(Number(x.toPrecision(digits))));
 
 // The same without an exponent, as boxes for numbers take it.
-export const decimal = (x: number, digits = 4) => new Intl.NumberFormat('en', { useGrouping: false, maximumSignificantDigits: digits }).format(x + 0);
+export const decimal = (x: number, digits = 4) => (isPlain(x) ? short(x, digits) : new Intl.NumberFormat('en', { useGrouping: false, maximumSignificantDigits: digits }).format(x));
+
+// Whether a number is written without one; formats for others take long to make.
+const isPlain = (x: number) => x === 0 || (Math.abs(x) > 1e-6 && Math.abs(x) < 1e6);
