@@ -83,7 +83,8 @@ void PathSampler::sample(std::span<const SamplePoint> points, std::span<SampledL
 // Light of the groups at a point itself, and the first direction that its material draws.
 void PathSampler::begin(std::uint32_t index) {
     const SamplePoint& p = points_[index];
-    Vertex vertex{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches};
+    const Vertex place{p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches};
+    Vertex vertex = place;  // in the band that this sample has, of what disperses
     const Scattering* surface = p.surface;
     Rgb colors{1, 1, 1};
     std::uint8_t band = 0;
@@ -105,7 +106,7 @@ void PathSampler::begin(std::uint32_t index) {
         if (p.catches) add_unshadowed(index, group, arrived->value.diffuse * light);
         queue(vertex, *arrived, {index, static_cast<std::uint32_t>(group), arrived->value.diffuse * light, {}, p.path, arrived->share, arrived->value.glossy * light});
     }
-    if (p.lamps) begin_at_lamp(index, {p.position, p.facing, p.to_viewer, p.offset, p.lobes, p.path, p.instance, p.catches});
+    if (p.lamps) begin_at_lamp(index, place);
 
     const auto u = numbers(p, 0, Use::scatter);
     const auto s = surface->sample({u[2], u[0], u[1]});
