@@ -1,8 +1,7 @@
 // The pointer on the picture, and the page without a pointer.
-import { cameras, converged, expect, growTo, pixels, press, settled, test, visit, type Look } from './program';
+import { cameras, converged, expect, findHandle, growTo, pixels, plate, press, selected, selectPart, settled, test, visit, type Look, type Program } from './program';
 import type { Page } from '@playwright/test';
 
-const plate = { x: 545, y: 300 };
 const bracket = { x: 690, y: 250 };
 
 type Vec = number[];
@@ -40,7 +39,7 @@ test('the pointer marks the part that it is on; a double click goes to it, F bac
   await expect(marked(page)).toHaveCount(0);
 
   await page.mouse.dblclick(bracket.x, bracket.y);
-  await expect(page.locator('[role=treeitem][aria-selected=true]')).toContainText('l-bracket');
+  await expect(selected(page)).toContainText('l-bracket');
   await expect.poll(() => told.length).toBeGreaterThan(0);
   await settled(page, told);
   const part = told[told.length - 1];
@@ -61,24 +60,20 @@ test('the pointer marks the part that it is on; a double click goes to it, F bac
   expect(dot(ray(near, bracket, size), ray(whole, bracket, size))).toBeGreaterThan(0.999999);
 });
 
-test('handles go in round steps when they snap', async ({ page, start }) => {
-  await visit(page, await start());
+// The box that has it, of the plate, which is selected.
+async function heightOfPlate(page: Page, program: Program) {
+  await visit(page, program);
   await growTo(page, 'visible');
-  await page.mouse.click(plate.x, plate.y);
+  await selectPart(page);
   await page.getByTestId('tab-object').click();
-  const height = page.getByLabel(/^Position, y/);
+  return page.getByLabel(/^Position, y/);
+}
+
+test('handles go in round steps when they snap', async ({ page, start }) => {
+  const height = await heightOfPlate(page, await start());
   await press(page, 'm');
   await press(page, 'n');
-  const onHandle = async () => {
-    for (let y = 200; y < 300; y += 10) {
-      for (let x = 500; x < 620; x += 5) {
-        await page.mouse.move(x, y);
-        if ((await page.getByTestId('stage').getAttribute('data-handle')) === 'Y') return { x, y };
-      }
-    }
-    throw new Error('the handles are nowhere to be seen');
-  };
-  const { x, y } = await onHandle();
+  const { x, y } = await findHandle(page);
   const heights = new Set<number>();
   await page.mouse.down();
   for (let i = 1; i <= 40; i++) {
@@ -92,11 +87,7 @@ test('handles go in round steps when they snap', async ({ page, start }) => {
 });
 
 test('numbers of any size stand in their boxes as they are', async ({ page, start }) => {
-  await visit(page, await start());
-  await growTo(page, 'visible');
-  await page.mouse.click(plate.x, plate.y);
-  await page.getByTestId('tab-object').click();
-  const height = page.getByLabel(/^Position, y/);
+  const height = await heightOfPlate(page, await start());
   for (const [typed, shown] of [['0.00002', 0.00002], ['12345678', 12350000], ['-0.5', -0.5]] as const) {
     await height.fill(typed);
     await height.press('Enter');
@@ -119,11 +110,11 @@ test('without a pointer: a part is found, chosen, and made of another stuff', as
   };
   await page.evaluate(() => (document.activeElement as HTMLElement | null)?.blur());
   await tabTo('[role=tree], [role=tree] *');
-  for (let i = 0; i < 8 && (await page.locator('[role=treeitem][aria-selected=true]', { hasText: 'plate' }).count()) === 0; i++) {
+  for (let i = 0; i < 8 && (await selected(page).filter({ hasText: 'plate' }).count()) === 0; i++) {
     await page.keyboard.press('ArrowDown');
     await page.waitForTimeout(200);
   }
-  await expect(page.locator('[role=treeitem][aria-selected=true]')).toContainText('plate');
+  await expect(selected(page)).toContainText('plate');
   await tabTo('[data-testid=slider-roughness] *');
   await page.keyboard.press('End');
   await converged(page, before);

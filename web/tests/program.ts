@@ -142,3 +142,24 @@ export async function settled(page: Page, told: unknown[]): Promise<void> {
     await rested(page);
   }
 }
+
+// A place of the page on the plate of the model, as it is framed at first.
+export const plate = { x: 545, y: 300 };
+
+export const selected = (page: Page) => page.locator('[role=treeitem][aria-selected=true]');
+
+export async function selectPart(page: Page): Promise<void> {
+  await page.mouse.click(plate.x, plate.y);
+  await expect(selected(page)).toHaveCount(1);
+}
+
+// A place at which the pointer is on the upright arrow of the handles, which stand in the middle of the part.
+export async function findHandle(page: Page): Promise<{ x: number; y: number }> {
+  for (let y = 200; y < 300; y += 10) {
+    for (let x = 500; x < 620; x += 5) {
+      await page.mouse.move(x, y);
+      if ((await page.getByTestId('stage').getAttribute('data-handle')) === 'Y') return { x, y };
+    }
+  }
+  throw new Error('the handles are nowhere to be seen');
+}

@@ -2,12 +2,10 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { PNG } from 'pngjs';
-import { cameras, converged, expect, folder, growTo, model, pixels, press, rested, run, settled, test, visit } from './program';
+import { cameras, converged, expect, folder, growTo, model, pixels, plate, press, rested, run, selectPart, settled, test, visit } from './program';
 import type { Page } from '@playwright/test';
 
-const middle = { x: 545, y: 300 }; // on the plate of the model
 const rows = (page: Page) => page.getByRole('treeitem');
-const selected = (page: Page) => page.locator('[role=treeitem][aria-selected=true]');
 const undoAll = async (page: Page) => {
   while (await page.getByTestId('undo').isEnabled()) {
     await page.getByTestId('undo').click();
@@ -44,7 +42,7 @@ test('views: from the menu, kept by name, turntable, the other projection', asyn
   const before = told.length;
   await press(page, 't');
   await expect.poll(() => told.length - before).toBeGreaterThan(5);
-  await page.mouse.click(middle.x, middle.y); // stops it
+  await page.mouse.click(plate.x, plate.y); // stops it
   await settled(page, told);
   const stopped = told.length;
   await rested(page);
@@ -63,8 +61,7 @@ test('parts: found, hidden, shown alone, copied, deleted, and all of it taken ba
   await page.getByLabel('Search parts').fill('');
   await expect(rows(page)).toHaveCount(count);
 
-  await page.mouse.click(middle.x, middle.y);
-  await expect(selected(page)).toHaveCount(1);
+  await selectPart(page);
   await press(page, 'i');
   await expect(page.getByText('Others are hidden')).toBeVisible();
   await converged(page, before);
@@ -131,7 +128,7 @@ test('maps, the rays of a pixel, pause', async ({ page, start }) => {
   await growTo(page, 'shadows');
   await converged(page);
   const color = await pixels(page);
-  await page.mouse.click(middle.x, middle.y);
+  await page.mouse.click(plate.x, plate.y);
   await page.getByTestId('tab-numbers').click();
   await page.getByTestId('replay').click();
   await expect(page.getByRole('tree', { name: 'Rays' }).getByRole('treeitem').first()).toContainText('plate');
@@ -219,8 +216,7 @@ test('two pages have a session each', async ({ page, context, start }) => {
     await converged(one);
   }
   const before = await pixels(other);
-  await page.mouse.click(middle.x, middle.y);
-  await expect(selected(page)).toHaveCount(1);
+  await selectPart(page);
   await press(page, 'h');
   await converged(page, before);
   await expect(page.locator('[role=treeitem][data-hidden=true]')).not.toHaveCount(0);

@@ -1,5 +1,5 @@
 // Fingers on a tablet: one turns, two move and zoom, a tap selects. And where the pointer is, the picture grows first.
-import { converged, expect, growTo, pixels, test, visit } from './program';
+import { converged, expect, growTo, pixels, selected, test, visit } from './program';
 import type { Page } from '@playwright/test';
 
 test.use({ hasTouch: true, viewport: { width: 820, height: 1180 } });
@@ -65,7 +65,7 @@ test('one finger turns, two fingers zoom and move, a tap selects', async ({ page
   const moved = told[told.length - 1];
   expect(angle(near, moved), 'two fingers turn nothing').toBeLessThan(0.02);
   expect(stride(near, moved)).toBeGreaterThan(0.01 * distance(near));
-  await expect(page.locator('[role=treeitem][aria-selected=true]'), 'two fingers select nothing').toHaveCount(0);
+  await expect(selected(page), 'two fingers select nothing').toHaveCount(0);
 });
 
 test('the program is told where the pointer is', async ({ page, start }) => {

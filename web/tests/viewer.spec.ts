@@ -2,16 +2,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { PNG } from 'pngjs';
-import { converged, expect, folder, growTo, model, picture, pixels, run, test, visit } from './program';
-import type { Page } from '@playwright/test';
-
-// On the plate of the model.
-const middle = { x: 545, y: 300 };
-
-const selectPart = async (page: Page) => {
-  await page.mouse.click(middle.x, middle.y);
-  await expect(page.locator('[role=treeitem][aria-selected=true]')).toHaveCount(1);
-};
+import { converged, expect, findHandle, folder, growTo, model, picture, pixels, plate, run, selectPart, test, visit } from './program';
 
 test('a model opens, its picture grows and converges', async ({ page, start }) => {
   await visit(page, await start());
@@ -34,9 +25,9 @@ test('dragging turns the view, at once and then in the picture', async ({ page, 
     const canvas = document.querySelector<HTMLElement>('.picture');
     new MutationObserver(() => canvas?.style.transform.startsWith('matrix3d') && document.body.setAttribute('data-warped', 'true')).observe(canvas as Node, { attributes: true });
   });
-  await page.mouse.move(middle.x, middle.y);
+  await page.mouse.move(plate.x, plate.y);
   await page.mouse.down();
-  await page.mouse.move(middle.x + 60, middle.y + 10, { steps: 6 });
+  await page.mouse.move(plate.x + 60, plate.y + 10, { steps: 6 });
   await page.mouse.up();
   await expect(page.locator('body')).toHaveAttribute('data-warped', 'true');
   await converged(page, before);
@@ -83,7 +74,7 @@ test('a material of the library is dragged onto a part', async ({ page, start })
   await growTo(page, 'visible');
   await converged(page);
   const before = await pixels(page);
-  await page.getByRole('button', { name: 'brass polished' }).dragTo(page.getByTestId('stage'), { targetPosition: middle });
+  await page.getByRole('button', { name: 'brass polished' }).dragTo(page.getByTestId('stage'), { targetPosition: plate });
   await expect(page.getByTestId('scene-materials').getByRole('button', { name: 'brass polished' })).toBeVisible();
   await expect(page.getByRole('treeitem', { name: 'plate' })).toHaveAttribute('aria-selected', 'true');
   await converged(page, before);
@@ -112,17 +103,6 @@ test('a part is moved by its handles; one drag is one undo', async ({ page, star
   await expect(page.getByTestId('undo')).toBeDisabled();
   await expect.poll(() => pixels(page)).toBe(before);
 });
-
-// A place at which the pointer is on the upright arrow of the handles, which stand in the middle of the part.
-async function findHandle(page: Page): Promise<{ x: number; y: number }> {
-  for (let y = 200; y < 300; y += 10) {
-    for (let x = 500; x < 620; x += 5) {
-      await page.mouse.move(x, y);
-      if ((await page.getByTestId('stage').getAttribute('data-handle')) === 'Y') return { x, y };
-    }
-  }
-  throw new Error('the handles are nowhere to be seen');
-}
 
 test('a light is added, changed and deleted', async ({ page, start }) => {
   await visit(page, await start());
