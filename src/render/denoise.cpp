@@ -30,7 +30,7 @@ struct NoisyNode {
 
 class NoisyNodes {
 public:
-    NoisyNodes(const World& world, const Tile& tile) : world_(world), tile_(tile), visited_(tile.nodes.size()) {}
+    NoisyNodes(const World& world, const Tile& tile) : world_(world), tile_(tile), depths_(split_depths(tile)), visited_(tile.nodes.size()) {}
 
     std::vector<NoisyNode> find() {
         if (tile_.samples.empty() || tile_.corners.empty()) return {};
@@ -58,6 +58,7 @@ private:
     void add_tree(std::uint32_t root, float x, float y) {
         if (root == no_node || visited_[root]) return;
         visited_[root] = true;
+        splits_ = depths_.empty() ? 0u : depths_[root].place;
         add(root, own_way, x, y, 0);
     }
 
@@ -93,7 +94,7 @@ private:
         }
         noisy.light.diffuse = over(parts.diffuse, noisy.diffuse_color), noisy.light.glossy = over(parts.glossy, noisy.glossy_color);
         noisy.light.luminance = noisy.catches() ? share_of(parts.diffuse) + luminance(parts.glossy) : luminance(noisy.light.diffuse + noisy.light.glossy);
-        const double wanted = samples_wanted(world_, tile_, i), samples = tile_.samples[i];
+        const double wanted = samples_wanted(world_, tile_, i, splits_), samples = tile_.samples[i];
         noisy.trust = samples >= wanted ? 1.0f : static_cast<float>(samples / wanted);
         if (noisy.catches()) {
             noisy.guide.aim = noisy.trust;
@@ -118,7 +119,9 @@ private:
 
     const World& world_;
     const Tile& tile_;
+    const std::vector<SplitDepth> depths_;
     std::vector<bool> visited_;
+    unsigned splits_ = 0;  // where the root is whose tree is looked at
     std::vector<NoisyNode> found_;
 };
 

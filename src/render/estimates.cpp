@@ -85,10 +85,12 @@ double samples_wanted(const World& world, const Spread& spread, double influence
     return ratio * ratio / mean_of;
 }
 
-double samples_wanted(const World& world, const Tile& tile, std::uint32_t node) {
+double samples_wanted(const World& world, const Tile& tile, std::uint32_t node, unsigned depth) {
     if (tile.samples[node] < fewest_to_tell) return std::numeric_limits<double>::infinity();
-    // A pixel is the mean of four corners, each with samples of its own.
-    return samples_wanted(world, spread_of(world, estimates_of(world, tile, node), tile.samples[node]), max_component(influence(tile, node)), 4);
+    // A pixel is the mean of its parts, and a part that of its corners, each with samples of its own. With n parts to a side the squares of the corners' weights,
+    // added, come to the square of (n - 1/2) / n^2: the pixel is as noisy as the mean of so many. Some corners have less weight, where parts are split further.
+    const double parts = std::exp2(depth), alike = parts * parts / (parts - 0.5);
+    return samples_wanted(world, spread_of(world, estimates_of(world, tile, node), tile.samples[node]), max_component(influence(tile, node)), alike * alike);
 }
 
 std::uint32_t samples_needed(const World& world, double wanted) {
@@ -98,6 +100,6 @@ std::uint32_t samples_needed(const World& world, double wanted) {
     return std::min(samples, std::max(pilot, bound));
 }
 
-std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node) { return samples_needed(world, samples_wanted(world, tile, node)); }
+std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node, unsigned depth) { return samples_needed(world, samples_wanted(world, tile, node, depth)); }
 
 }  // namespace crescente::render

@@ -41,12 +41,12 @@ struct SampledParts {
 SampledParts sampled_parts(const World& world, const Tile& tile, std::uint32_t node);
 Rgb sampled_radiance(const World& world, const Tile& tile, std::uint32_t node);
 
-// Samples for which the error of a node times its influence is below the settings' noise, relative to how bright the node is in the pixel. Infinite: there are
-// too few to tell.
-double samples_wanted(const World& world, const Tile& tile, std::uint32_t node);
+// Samples for which the error of pixels by the noise of a node, and of those of the node's like in all their corners, is below the settings' noise, relative to
+// how bright the node is in the pixel. depth: SplitDepth::place of the node's root. Infinite: there are too few to tell.
+double samples_wanted(const World& world, const Tile& tile, std::uint32_t node, unsigned depth);
 
 // Samples that a node whose pilot is complete should have in all: what it wants, as a power of two times the pilot's, up to the settings' bound.
-std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node);
+std::uint32_t samples_needed(const World& world, const Tile& tile, std::uint32_t node, unsigned depth);
 
 // How bright an estimate's pilot was, and how its samples were spread about that: luminances, added over all groups as if these erred together.
 struct Spread {

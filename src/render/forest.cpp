@@ -60,6 +60,23 @@ void forget_samples(Tile& tile, std::uint32_t node) {
     std::fill_n(tile.estimates.begin() + static_cast<std::ptrdiff_t>(node * groups), groups, Estimate{});
 }
 
+std::vector<SplitDepth> split_depths(const Tile& tile) {
+    if (tile.quads.size() <= static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height)) return {};
+    std::vector<SplitDepth> of_nodes(tile.nodes.size());
+    std::vector<std::uint8_t> of_quads(tile.quads.size());
+    for (std::size_t q = 0; q < tile.quads.size(); ++q) {  // parts come after what they are parts of
+        const Quad& quad = tile.quads[q];
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            if (quad.parts != no_node) of_quads[quad.parts + k] = static_cast<std::uint8_t>(of_quads[q] + 1);
+            if (quad.corners[k] == no_node) continue;
+            SplitDepth& depth = of_nodes[quad.corners[k]];
+            depth.place = std::min(depth.place, of_quads[q]);
+            if (quad.parts == no_node) depth.parts = std::min(depth.parts, of_quads[q]);
+        }
+    }
+    return of_nodes;
+}
+
 std::vector<Tile> cut_tiles(const scene::Settings& settings) {
     std::vector<Tile> tiles;
     for (int y = 0; y < settings.height; y += settings.tile) {

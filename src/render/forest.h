@@ -172,6 +172,14 @@ void show_without_samples(Tile& tile);
 void forget_samples(Tile& tile);
 void forget_samples(Tile& tile, std::uint32_t node);  // of one
 
+// How often pixels are split where a root is a corner. Of a node that is no corner, or is one only of parts that are no more: none.
+struct SplitDepth {
+    static constexpr std::uint8_t none = 0xff;
+    std::uint8_t place = none;  // 0: a corner of pixels; 1: of their quarters; and so on. The same in every tile that has it
+    std::uint8_t parts = none;  // the largest that it is a corner of in this tile
+};
+std::vector<SplitDepth> split_depths(const Tile& tile);  // by node; empty: no pixel is split
+
 // The tiles of a picture, row by row, for which nothing was done yet.
 std::vector<Tile> cut_tiles(const scene::Settings& settings);
 

@@ -36,22 +36,6 @@ std::uint64_t key_of(Vec3 position) {
     return key;
 }
 
-constexpr std::uint8_t no_depth = 0xff;
-
-// How often pixels are split about each root: of the parts that have it as a corner, the largest counts. Empty: nowhere.
-std::vector<std::uint8_t> split_depths(const Tile& tile) {
-    std::vector<std::uint8_t> of_roots, of_quads(tile.quads.size());
-    if (of_quads.size() > static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height)) of_roots.assign(tile.nodes.size(), no_depth);
-    for (std::size_t q = 0; q < tile.quads.size() && !of_roots.empty(); ++q) {  // parts come after what they are parts of
-        const Quad& quad = tile.quads[q];
-        for (std::uint32_t k = 0; k < 4; ++k) {
-            if (quad.parts != no_node) of_quads[quad.parts + k] = static_cast<std::uint8_t>(of_quads[q] + 1);
-            else if (quad.corners[k] != no_node) of_roots[quad.corners[k]] = std::min(of_roots[quad.corners[k]], of_quads[q]);
-        }
-    }
-    return of_roots;
-}
-
 class Sampling {
 public:
     Sampling(Growth& growth, const Stage& stage)
@@ -62,7 +46,7 @@ public:
           renews_(stage.parameter == renewal),
           most_(static_cast<std::uint32_t>(growth.settings().samples)),
           bound_(renews_ ? most_ : static_cast<std::uint32_t>(stage.parameter)),
-          depths_(bound_ < most_ ? split_depths(growth.tile()) : std::vector<std::uint8_t>{}),
+          depths_(split_depths(growth.tile())),
           sampler_(growth.world(), growth.tile().rays, growth.tile().tests) {}
 
     bool run(const Deadline& deadline) {
@@ -76,13 +60,13 @@ public:
                 const std::uint32_t root = tile_.nodes[i].left_scene() ? no_node : root_of_seen(i);
                 if (root == no_node) continue;
                 if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
-                forget_too_many(i);
-                const std::uint32_t bound = bound_below(root);
-                if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(i, bound)) chunk_.push_back(i), bounds_.push_back(bound);
+                const Wanted wanted{i, depths_.empty() ? SplitDepth{0, 0} : depths_[root]};
+                forget_too_many(wanted);
+                if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(wanted)) chunk_.push_back(wanted);
             }
             const bool complete = sample_chunk(deadline);
             show_chunk();
-            chunk_.clear(), bounds_.clear();
+            chunk_.clear();
             if (!complete) return false;
             tile_.cursor = end;
             if (deadline.passed() && end < tile_.nodes.size()) return false;
@@ -91,7 +75,12 @@ public:
     }
 
 private:
-    // no_node: the node is no part of the picture: below what was hidden, or below rays that stand for lobes that are sampled.
+    struct Wanted {
+        std::uint32_t node;
+        SplitDepth depth;  // of its root
+    };
+
+    // no_node: the node is no part of the picture: below what was hidden, below rays that stand for lobes that are sampled, or in parts of pixels that are no more.
     std::uint32_t root_of_seen(std::uint32_t i) {
         for (std::uint32_t above = tile_.nodes[i].parent; above != no_node; i = above, above = tile_.nodes[i].parent) {
             if (tile_.nodes[i].hidden) return no_node;
@@ -99,27 +88,25 @@ private:
             const Smooth smooth = smooth_lobes_of(above);
             if ((parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts)) return no_node;
         }
-        return i;
-    }
-
-    // A round gives a pixel about as many samples whether it is split or not, until the last gives every node what it needs.
-    std::uint32_t bound_below(std::uint32_t root) const {
-        if (depths_.empty() || depths_[root] == no_depth) return bound_;
-        return std::max(std::min(bound_, fewest_to_tell), bound_ >> (2 * depths_[root]));
+        return !depths_.empty() && depths_[i].parts == SplitDepth::none ? no_node : i;
     }
 
     Smooth smooth_lobes_of(std::uint32_t i) { return smooth_lobes(lobes_of(world_, tile_, i, scratch_)); }
 
-    std::uint32_t goal(std::uint32_t i, std::uint32_t bound) const {
+    // A round gives a pixel about as many samples whether it is split or not, until the last gives every node what it needs.
+    std::uint32_t goal(Wanted wanted) const {
+        const auto [i, depth] = wanted;
         if (tile_.nodes[i].outdated) return tile_.samples[i];
+        const std::uint32_t bound = bound_ == most_ ? bound_ : std::max(std::min(bound_, fewest_to_tell), bound_ >> (2 * depth.parts));
         if (bound <= pilot) return bound;
-        return tile_.samples[i] < pilot ? pilot : std::min(bound, samples_needed(world_, tile_, i));
+        return tile_.samples[i] < pilot ? pilot : std::min(bound, samples_needed(world_, tile_, i, depth.place));
     }
 
     // After an edit a node may have more samples than a fresh render would have given it.
-    void forget_too_many(std::uint32_t i) {
+    void forget_too_many(Wanted wanted) {
+        const auto [i, depth] = wanted;
         const std::uint32_t samples = tile_.samples[i];
-        const std::uint32_t needed = most_ <= pilot ? most_ : samples >= pilot ? samples_needed(world_, tile_, i) : samples;
+        const std::uint32_t needed = most_ <= pilot ? most_ : samples >= pilot ? samples_needed(world_, tile_, i, depth.place) : samples;
         if (samples > needed && !tile_.nodes[i].outdated) forget_samples(tile_, i);
     }
 
@@ -128,15 +115,15 @@ private:
         chunk_points_.clear(), surfaces_.clear();
         chunk_lobes_.resize(chunk_.size()), surfaces_.reserve(chunk_.size());
         for (std::size_t k = 0; k < chunk_.size(); ++k) {
-            SamplePoint point = point_of(chunk_[k], chunk_lobes_[k]);
+            SamplePoint point = point_of(chunk_[k].node, chunk_lobes_[k]);
             point.surface = &surfaces_.emplace_back(*point.lobes, point.facing, point.to_viewer, SmoothAs::nothing);
             chunk_points_.push_back(point);
         }
         while (true) {
             wanting_.clear(), points_.clear();
             for (std::size_t k = 0; k < chunk_.size(); ++k) {
-                const std::uint32_t i = chunk_[k];
-                if (tile_.samples[i] >= goal(i, bounds_[k])) continue;
+                const std::uint32_t i = chunk_[k].node;
+                if (tile_.samples[i] >= goal(chunk_[k])) continue;
                 wanting_.push_back(i), points_.push_back(chunk_points_[k]);
                 points_.back().index = tile_.samples[i];
             }
@@ -173,14 +160,16 @@ private:
 
     // Lights the chunk's nodes that have samples by them.
     void show_chunk() {
-        std::erase_if(chunk_, [&](std::uint32_t i) { return tile_.samples[i] == 0; });
-        for (const std::uint32_t i : chunk_) {
+        shown_.clear();
+        for (const auto [i, depth] : chunk_) {
+            if (tile_.samples[i] == 0) continue;
+            shown_.push_back(i);
             Node& node = tile_.nodes[i];
             const Smooth smooth = smooth_lobes_of(i);
             node.sampled = true;
             node.samples_reflection = !smooth.reflects, node.samples_refraction = !smooth.refracts;
         }
-        growth_.light(chunk_, true, accel::Coherence::coherent);
+        growth_.light(shown_, true, accel::Coherence::coherent);
     }
 
     Growth& growth_;
@@ -189,10 +178,11 @@ private:
     const std::size_t groups_;
     const bool renews_;
     const std::uint32_t most_, bound_;
-    const std::vector<std::uint8_t> depths_;
+    const std::vector<SplitDepth> depths_;
     PathSampler sampler_;
     Lobes scratch_;  // of a textured material
-    std::vector<std::uint32_t> chunk_, bounds_, wanting_;  // bounds_: of samples, this round, of each of the chunk
+    std::vector<Wanted> chunk_;
+    std::vector<std::uint32_t> wanting_, shown_;
     std::vector<SamplePoint> chunk_points_, points_;
     std::vector<Lobes> chunk_lobes_;  // of textured materials
     std::vector<Scattering> surfaces_;
