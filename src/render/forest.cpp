@@ -61,10 +61,13 @@ void forget_samples(Tile& tile, std::uint32_t node) {
 }
 
 std::vector<SplitDepth> split_depths(const Tile& tile) {
-    if (tile.quads.size() <= static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height)) return {};
+    const std::size_t pixels = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
+    if (tile.quads.size() <= pixels) return {};
     std::vector<SplitDepth> of_nodes(tile.nodes.size());
-    std::vector<std::uint8_t> of_quads(tile.quads.size());
+    std::vector<std::uint8_t> of_quads(tile.quads.size(), SplitDepth::none);
+    std::fill_n(of_quads.begin(), pixels, std::uint8_t{0});
     for (std::size_t q = 0; q < tile.quads.size(); ++q) {  // parts come after what they are parts of
+        if (of_quads[q] == SplitDepth::none) continue;      // given up by an edit
         const Quad& quad = tile.quads[q];
         for (std::uint32_t k = 0; k < 4; ++k) {
             if (quad.parts != no_node) of_quads[quad.parts + k] = static_cast<std::uint8_t>(of_quads[q] + 1);

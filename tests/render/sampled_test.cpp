@@ -214,5 +214,19 @@ TEST(Sampled, StrengthAsksForNoRay) {
     EXPECT_TRUE(same_picture(picture_of(scene), session.picture()));
 }
 
+// What a corner needs goes by how little of its pixel it is. Pixels that are whole again, beside those still split, ask nothing of the corners that they had.
+TEST(Sampled, PixelsWholeAgainAskForNothing) {
+    Scene scene = sampled(still_life(), scene::Level::soft, 256);
+    scene.settings.width = 40, scene.settings.height = 30, scene.settings.supersampling = 2, scene.settings.noise = 0.02;
+    Light light;
+    light.kind = scene::LightKind::sphere, light.position = {0, 4, 2}, light.radius = 1, light.intensity = 20;
+    scene.lights = {light};
+    Session session = finished(scene);
+    scene.lights[0].intensity = 4;
+    ASSERT_TRUE(session.edit({scene::SetLight{0, scene.lights[0]}}));
+    session.advance(Deadline::never());
+    EXPECT_TRUE(same_picture(picture_of(scene), session.picture()));
+}
+
 }  // namespace
 }  // namespace crescente::render::testing
