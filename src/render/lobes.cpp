@@ -125,14 +125,20 @@ float kept_by_glass(const Lobes& lobes, std::size_t i, std::size_t side) {
 void set_gives_back(Lobes& lobes) {
     const auto give_back = [&](std::size_t side, double reaches) { lobes.layer_gives_back[side] = reaches > 0 ? static_cast<float>(1 / reaches) : 0; };
     CosineTable<float> outside, inside, below_coat;
-    for (std::size_t i = 0; i < outside.size(); ++i) {
-        const double cosine = tabled_cosine(i), above = (1 - sheen_reflectance(lobes, cosine)) * (1 - coat_reflectance(lobes, cosine));
-        outside[i] = 1 - lobes.layer[0][i].kept, inside[i] = 1 - lobes.layer[1][i].kept, below_coat[i] = outside[i] * static_cast<float>(above);
+    for (std::size_t i = 0; i < outside.size(); ++i) outside[i] = 1 - lobes.layer[0][i].kept, inside[i] = 1 - lobes.layer[1][i].kept;
+    const double passes = mean_over_light(outside);
+    if (lobes.coat > 0 || lobes.has_sheen()) {
+        for (std::size_t i = 0; i < outside.size(); ++i) {
+            const double cosine = tabled_cosine(i), above = (1 - sheen_reflectance(lobes, cosine)) * (1 - coat_reflectance(lobes, cosine));
+            below_coat[i] = outside[i] * static_cast<float>(above);
+        }
+        give_back(0, mean_over_light(below_coat));
+    } else {
+        give_back(0, passes);
     }
-    give_back(0, mean_over_light(below_coat));
     // Of an interface that is not asked of a table, what is not in the steps of one: as much passes from inside as from outside, but for total reflection.
     const bool by_interface = lobes.transmits() && lobes.glass.density[1] == 0;
-    give_back(1, by_interface ? mean_over_light(outside) / (lobes.ior * lobes.ior) : mean_over_light(inside));
+    give_back(1, !lobes.transmits() ? passes : by_interface ? passes / (lobes.ior * lobes.ior) : mean_over_light(inside));
 }
 
 // Of light from a direction, what coat, fibres and white facets below them do not send back at once, as bsdf.h has them: the more of what is over the facets at either end does not reach these, or does not
@@ -181,7 +187,7 @@ void set_multiple(Lobes& lobes, Rgb fresnel, const Lobes* whole) {
 void set_layer(Lobes& lobes, const CosineTable<float>& film) {
     const bool lets_in = !is_black(lobes.diffuse);
     const auto kept = [&](float whole, float rise) { return lobes.layer_f0 * (whole - rise) + lobes.layer_f90 * rise; };
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t side = 0; side < (lobes.transmits() ? 2 : 1); ++side) {
         for (std::size_t i = 0; i < film.size(); ++i) {
             LayerShare& share = lobes.layer[side][i];
             share.missing = static_cast<float>(lobes.sums[i].missing());
@@ -191,6 +197,7 @@ void set_layer(Lobes& lobes, const CosineTable<float>& film) {
             share.kept = std::clamp(share.kept, 0.0f, 1.0f);
         }
     }
+    if (!lobes.transmits()) lobes.layer[1] = lobes.layer[0];
     set_gives_back(lobes);
     if (!lets_in || !lobes.grained() || lobes.transmits()) return;
     for (std::size_t i = 0; i < film.size(); ++i) lobes.layer_lean[i] = kept(lobes.lean[i].whole(), lobes.rise_lean[i]) * (1 - lobes.film);
