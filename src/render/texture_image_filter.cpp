@@ -18,6 +18,7 @@ Rgba between(const Rgba& p, const Rgba& q, float t) { return {p.r + (q.r - p.r) 
 
 // The texel that stands for number `i` of a row without end.
 int wrapped(double i, int size, Wrap wrap) {
+    if (i >= 0 && i < size) return static_cast<int>(i);
     switch (wrap) {
         case Wrap::repeat: return static_cast<int>(i - std::floor(i / size) * size);
         case Wrap::clamp: return static_cast<int>(std::clamp(i, 0.0, size - 1.0));

@@ -74,12 +74,20 @@ TextureImage::TextureImage(ImageSource source, Pixels pixels, bool srgb, int coa
     content_ = checksum({reinterpret_cast<const char*>(finest.samples.data()), finest.samples.size()}, content_);
 }
 
-float TextureImage::sample(const Level& level, std::size_t index, bool is_alpha) const {
+template <TextureImage::Coding coding>
+float TextureImage::sample(const Level& level, std::size_t index, bool is_alpha) {
+    if constexpr (coding == Coding::linear16) return static_cast<float>(load<std::uint16_t>(level.samples, index)) / 65535.0f;
+    else if constexpr (coding == Coding::float32) return load<float>(level.samples, index);
+    else if (coding == Coding::linear8 || is_alpha) return static_cast<float>(level.samples[index]) / 255.0f;
+    else return linear_of_bytes()[level.samples[index]];
+}
+
+float TextureImage::sample(const Level& level, std::size_t index, bool is_alpha) {
     switch (level.coding) {
-        case Coding::srgb8: return is_alpha ? static_cast<float>(level.samples[index]) / 255.0f : linear_of_bytes()[level.samples[index]];
-        case Coding::linear8: return static_cast<float>(level.samples[index]) / 255.0f;
-        case Coding::linear16: return static_cast<float>(load<std::uint16_t>(level.samples, index)) / 65535.0f;
-        case Coding::float32: return load<float>(level.samples, index);
+        case Coding::srgb8: return sample<Coding::srgb8>(level, index, is_alpha);
+        case Coding::linear8: return sample<Coding::linear8>(level, index, is_alpha);
+        case Coding::linear16: return sample<Coding::linear16>(level, index, is_alpha);
+        case Coding::float32: return sample<Coding::float32>(level, index, is_alpha);
     }
     return 0;
 }
@@ -116,21 +124,21 @@ Rgba TextureImage::texel(int level_index, int x, int y) const {
     const Level& level = levels_[static_cast<std::size_t>(level_index)];
     const auto n = static_cast<std::size_t>(channels_);
     const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)) * n;
-    const auto gathered = [&](auto&& color, auto&& alpha) {
+    const auto gathered = [&]<Coding coding>() {
         Rgba value;
-        value.r = color(at);
+        value.r = sample<coding>(level, at, false);
         if (n < 3) value.g = value.b = value.r;
-        else value.g = color(at + 1), value.b = color(at + 2);
-        if (n % 2 == 0) value.a = alpha(at + n - 1);
+        else value.g = sample<coding>(level, at + 1, false), value.b = sample<coding>(level, at + 2, false);
+        if (n % 2 == 0) value.a = sample<coding>(level, at + n - 1, true);
         return value;
     };
-    // Most pictures are like this, and the choice is made once for all channels.
-    if (level.coding == Coding::srgb8) {
-        const auto& linear = linear_of_bytes();
-        const std::uint8_t* samples = level.samples.data();
-        return gathered([&](std::size_t i) { return linear[samples[i]]; }, [&](std::size_t i) { return static_cast<float>(samples[i]) / 255.0f; });
+    switch (level.coding) {  // once for all channels
+        case Coding::srgb8: return gathered.template operator()<Coding::srgb8>();
+        case Coding::linear8: return gathered.template operator()<Coding::linear8>();
+        case Coding::linear16: return gathered.template operator()<Coding::linear16>();
+        case Coding::float32: return gathered.template operator()<Coding::float32>();
     }
-    return gathered([&](std::size_t i) { return sample(level, i, false); }, [&](std::size_t i) { return sample(level, i, true); });
+    return {};
 }
 
 std::size_t TextureImage::bytes() const {

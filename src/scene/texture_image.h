@@ -53,7 +53,9 @@ private:
         Coding coding;
         std::vector<std::uint8_t> samples;
     };
-    float sample(const Level& level, std::size_t index, bool is_alpha) const;
+    template <Coding coding>
+    static float sample(const Level& level, std::size_t index, bool is_alpha);
+    static float sample(const Level& level, std::size_t index, bool is_alpha);
     Level coarser(const Level& fine) const;
 
     ImageSource source_;
