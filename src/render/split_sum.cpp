@@ -58,14 +58,14 @@ FacetSums sums_of(const Microfacets& facets, int angles, int tilts) {
     return sums;
 }
 
-double fourth_power(double x) { return x * x * x * x; }
+constexpr double fourth_power(double x) { return x * x * x * x; }
 
 // Of each cell of the table: where it begins, in the root s of the cosine, and how much the fourth and the fifth power of s rise in it.
 struct Cell {
     double begin, fourth, fifth;
 };
-const std::array<Cell, std::tuple_size_v<SplitSums> - 1> cells = [] {
-    std::array<Cell, std::tuple_size_v<SplitSums> - 1> all;
+constexpr std::array<Cell, std::tuple_size_v<SplitSums> - 1> cells = [] {
+    std::array<Cell, std::tuple_size_v<SplitSums> - 1> all{};
     for (std::size_t i = 0; i < all.size(); ++i) {
         const double s0 = static_cast<double>(i) / last, s1 = static_cast<double>(i + 1) / last;
         all[i] = {s0, fourth_power(s1) - fourth_power(s0), fourth_power(s1) * s1 - fourth_power(s0) * s0};
