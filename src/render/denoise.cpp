@@ -58,7 +58,7 @@ private:
     void add_tree(std::uint32_t root, float x, float y) {
         if (root == no_node || visited_[root]) return;
         visited_[root] = true;
-        splits_ = depths_.empty() ? 0u : depths_[root].place;
+        splits_ = split_depth(depths_, root).place;
         add(root, own_way, x, y, 0);
     }
 

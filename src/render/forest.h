@@ -179,6 +179,7 @@ struct SplitDepth {
     std::uint8_t parts = none;  // the largest that it is a corner of in this tile
 };
 std::vector<SplitDepth> split_depths(const Tile& tile);  // by node; empty: no pixel is split
+inline SplitDepth split_depth(const std::vector<SplitDepth>& depths, std::uint32_t root) { return depths.empty() ? SplitDepth{0, 0} : depths[root]; }
 
 // The tiles of a picture, row by row, for which nothing was done yet.
 std::vector<Tile> cut_tiles(const scene::Settings& settings);

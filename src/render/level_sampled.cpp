@@ -60,7 +60,7 @@ public:
                 const std::uint32_t root = tile_.nodes[i].left_scene() ? no_node : root_of_seen(i);
                 if (root == no_node) continue;
                 if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
-                const Wanted wanted{i, depths_.empty() ? SplitDepth{0, 0} : depths_[root]};
+                const Wanted wanted{i, split_depth(depths_, root)};
                 forget_too_many(wanted);
                 if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(wanted)) chunk_.push_back(wanted);
             }
@@ -88,7 +88,7 @@ private:
             const Smooth smooth = smooth_lobes_of(above);
             if ((parent.reflected == i && !smooth.reflects) || (parent.refracted == i && !smooth.refracts)) return no_node;
         }
-        return !depths_.empty() && depths_[i].parts == SplitDepth::none ? no_node : i;
+        return split_depth(depths_, i).parts == SplitDepth::none ? no_node : i;
     }
 
     Smooth smooth_lobes_of(std::uint32_t i) { return smooth_lobes(lobes_of(world_, tile_, i, scratch_)); }

@@ -124,21 +124,22 @@ float kept_by_glass(const Lobes& lobes, std::size_t i, std::size_t side) {
 
 void set_gives_back(Lobes& lobes) {
     const auto give_back = [&](std::size_t side, double reaches) { lobes.layer_gives_back[side] = reaches > 0 ? static_cast<float>(1 / reaches) : 0; };
-    CosineTable<float> outside, inside, below_coat;
-    for (std::size_t i = 0; i < outside.size(); ++i) outside[i] = 1 - lobes.layer[0][i].kept, inside[i] = 1 - lobes.layer[1][i].kept;
+    const auto let_in = [&](std::size_t side) {
+        CosineTable<float> shares;
+        for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = 1 - lobes.layer[side][i].kept;
+        return shares;
+    };
+    CosineTable<float> outside = let_in(0);
     const double passes = mean_over_light(outside);
-    if (lobes.coat > 0 || lobes.has_sheen()) {
-        for (std::size_t i = 0; i < outside.size(); ++i) {
-            const double cosine = tabled_cosine(i), above = (1 - sheen_reflectance(lobes, cosine)) * (1 - coat_reflectance(lobes, cosine));
-            below_coat[i] = outside[i] * static_cast<float>(above);
-        }
-        give_back(0, mean_over_light(below_coat));
-    } else {
-        give_back(0, passes);
-    }
     // Of an interface that is not asked of a table, what is not in the steps of one: as much passes from inside as from outside, but for total reflection.
     const bool by_interface = lobes.transmits() && lobes.glass.density[1] == 0;
-    give_back(1, !lobes.transmits() ? passes : by_interface ? passes / (lobes.ior * lobes.ior) : mean_over_light(inside));
+    give_back(1, !lobes.transmits() ? passes : by_interface ? passes / (lobes.ior * lobes.ior) : mean_over_light(let_in(1)));
+    if (!(lobes.coat > 0) && !lobes.has_sheen()) return give_back(0, passes);
+    for (std::size_t i = 0; i < outside.size(); ++i) {
+        const double cosine = tabled_cosine(i), above = (1 - sheen_reflectance(lobes, cosine)) * (1 - coat_reflectance(lobes, cosine));
+        outside[i] *= static_cast<float>(above);
+    }
+    give_back(0, mean_over_light(outside));
 }
 
 // Of light from a direction, what coat, fibres and white facets below them do not send back at once, as bsdf.h has them: the more of what is over the facets at either end does not reach these, or does not
