@@ -78,7 +78,7 @@ private:
         noisy.guide.position = {static_cast<float>(from_viewer.x), static_cast<float>(from_viewer.y), static_cast<float>(from_viewer.z)};
         noisy.guide.normal = node.normal;
         noisy.guide.surface = static_cast<std::uint32_t>(mix_bits(std::uint64_t{node.instance} << 32 | node.material)) >> 1;
-        Lobes scratch;
+        TexturedLobes scratch;
         const Lobes& lobes = lobes_of(world_, tile_, i, scratch);
         noisy.guide.roughness = roughness_of(lobes);
         if (world_.textured_material(node.material) && !noisy.catches()) {
@@ -227,7 +227,7 @@ std::vector<Corrections> denoise(const World& world, std::span<const Tile* const
         Layer layer = layer_of(world, tiles, nodes, way, pool);
         filter(layer.grid, pool);
         pool.for_each(tiles.size(), [&](std::size_t t) {
-            Lobes scratch;
+            TexturedLobes scratch;
             for (const NoisyNode& n : nodes[t]) {
                 FilteredLight light;
                 if (n.way != way || n.trust == 1 || !look_up(layer, n, light)) continue;

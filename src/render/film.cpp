@@ -10,7 +10,7 @@
 
 #include "render/level_lens.h"
 #include "render/level_visible.h"
-
+#include "render/stand_ins.h"
 #include "render/surface_lobes.h"
 
 namespace crescente::render {
@@ -103,6 +103,7 @@ std::vector<T> developed(const Tile& tile, OfNodes&& of_nodes, const std::vector
     if (values.empty() && before.empty()) return {};
     values.resize(tile.nodes.size());
     if (step > 1) return interpolate(tile, values, step);
+    if (tile.quads_before.empty() && !tile.samples.empty()) let_stand_in(tile, values);
     std::vector<T> pixels;
     pixels.reserve(count);
     for (int y = 0; y < tile.height; ++y) {
@@ -237,7 +238,7 @@ void expose(const Tile& tile, const World& world, std::span<const scene::Level> 
             set(1, {dot(view, world.camera.forward())});
             set(2, {node.position.x, node.position.y, node.position.z});
             set(3, {node.normal[0], node.normal[1], node.normal[2]});
-            Lobes scratch;
+            TexturedLobes scratch;
             const Rgb& albedo = lobes_of(world, tile, root, scratch).albedo;
             set(4, {albedo.r, albedo.g, albedo.b});
             set(5, {double(world.node_of_instance[node.instance])});

@@ -15,7 +15,7 @@ std::size_t sum_columns(const Tile& tile, Length length) {
         return map.size() * (sizeof(Value) + sizeof(void*)) + map.bucket_count() * sizeof(void*);
     };
     return vector_bytes(tile.nodes) + vector_bytes(tile.shares) + vector_bytes(tile.samples) + vector_bytes(tile.estimates) + vector_bytes(tile.lens_samples) +
-           vector_bytes(tile.lens_estimates) + vector_bytes(tile.lens_pixels) + vector_bytes(tile.lens_clear) + vector_bytes(tile.corners) +
+           vector_bytes(tile.lens_estimates) + vector_bytes(tile.lens_pixels) + vector_bytes(tile.lens_clear) + vector_bytes(tile.unsampled) + vector_bytes(tile.corners) +
            vector_bytes(tile.pending) + vector_bytes(tile.growing) + vector_bytes(tile.quads) + vector_bytes(tile.quads_before) + vector_bytes(tile.todo) + vector_bytes(tile.pixels) + vector_bytes(tile.clear_pixels) + map_bytes(tile.filtered) + map_bytes(tile.straight) + map_bytes(tile.subpixel_roots);
 }
 
@@ -38,6 +38,7 @@ void Tile::trim() {
 }
 
 void show_without_samples(Tile& tile) {
+    release(tile.unsampled);
     for (Node& node : tile.nodes) {
         if (!node.sampled) continue;
         node.sampled = node.samples_reflection = node.samples_refraction = false;

@@ -99,6 +99,7 @@ struct Tile {
     std::vector<Estimate> lens_estimates;                  // what they say, columns of pixel i from i * LensColumns::count()
     std::vector<Rgb> lens_pixels;                          // what the picture shows of them; empty: it shows the trees
     std::vector<float> lens_clear;                         // with those, as clear_pixels; empty: the picture keeps no alpha
+    std::vector<Rgb> unsampled;                            // radiances() before the first sample; only while corners wait for theirs (stand_ins.h)
     std::vector<std::uint32_t> corners;                    // roots of the (width + 1) x (height + 1) pixel corners
     std::vector<Pending> pending;
     std::vector<Pending> growing;                          // of new corners inside pixels, while they are grown to the end

@@ -126,8 +126,15 @@ void Growth::gather(std::span<const std::uint32_t> nodes) {
     }
 }
 
-// What the points are made of.
-void Growth::find_lobes() {
+// What the points are made of; known: of those that did not leave the scene.
+void Growth::find_lobes(std::span<const Lobes* const> known) {
+    if (!known.empty()) {
+        std::size_t next = 0;
+        for (PointLanes& p : points_) {
+            for (int i = 0; i < p.count; ++i) p.lobes[i] = known[next++];
+        }
+        return;
+    }
     if (!world_.textured.empty()) textured_.resize(points_.size() * lane_count);
     for (std::size_t k = 0; k < points_.size(); ++k) {
         PointLanes& p = points_[k];
@@ -141,6 +148,11 @@ void Growth::find_lobes() {
 void Growth::spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending) {
     gather(nodes);
     find_lobes();
+    spawn_from_points(pending);
+}
+
+void Growth::light_and_spawn(std::span<const std::uint32_t> nodes, Coherence coherence, std::vector<Pending>& pending) {
+    light(nodes, settings_.level >= scene::Level::shadows, coherence);
     spawn_from_points(pending);
 }
 
@@ -183,14 +195,14 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
             const Pending& from = pending[block * lane_count + i];
             const Node& node = tile_.nodes[from.parent];
             if (from.way == Way::refracted) {
-                Lobes scratch;
+                TexturedLobes scratch;
                 const double ior = lobes_of(world_, tile_, from.parent, scratch).ior;
                 refracted |= 1u << i;
                 eta[i] = node.inside ? ior : 1 / ior;
             }
             if (from.way == Way::straight) straight |= 1u << i;
             if (from.way == Way::reflected && has_own_coat(world_, node.material)) {
-                Lobes scratch;
+                TexturedLobes scratch;
                 set_lane(mirrors, i, mirror_normal(lobes_of(world_, tile_, from.parent, scratch), lane(p.normal, i)));
             }
         }
@@ -240,10 +252,7 @@ void Growth::grow(std::span<const Pending> pending, std::vector<Pending>& next) 
         }
     }
     for (const std::uint32_t i : sky_nodes_) light_sky(world_, tile_, i, {});
-    gather(fresh_);
-    find_lobes();
-    light_points(settings_.level >= scene::Level::shadows, coherence);
-    spawn_from_points(next);
+    light_and_spawn(fresh_, coherence, next);
 }
 
 bool Growth::grow_above(std::vector<Pending>& pending, double threshold, const Deadline& deadline) {

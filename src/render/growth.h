@@ -9,6 +9,7 @@
 #include "render/deadline.h"
 #include "render/forest.h"
 #include "render/physical_view.h"
+#include "render/surface_lobes.h"
 #include "render/world.h"
 
 namespace crescente::render {
@@ -48,11 +49,14 @@ public:
     // empty, lists for each point four roots whose objects are tried first (coherent sub-pixel rays).
     std::uint32_t add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first = {});
 
-    // Computes the local light of nodes; with shadows, the ways of lights to them that are not yet known are traced first.
-    void light(std::span<const std::uint32_t> nodes, bool shadows, accel::Coherence coherence);
+    // Computes the local light of nodes; with shadows, the ways of lights to them that are not yet known are traced first. lobes: by node, if the caller has them.
+    void light(std::span<const std::uint32_t> nodes, bool shadows, accel::Coherence coherence, std::span<const Lobes* const> lobes = {});
 
     // Appends to `pending` the rays that nodes spawn, if the depth bound lets them. Node after node, in the order of Way.
     void spawn(std::span<const std::uint32_t> nodes, std::vector<Pending>& pending);
+
+    // Both for nodes that are new; with shadows, if the picture is to have any.
+    void light_and_spawn(std::span<const std::uint32_t> nodes, accel::Coherence coherence, std::vector<Pending>& pending);
 
     // Traces pending rays into child nodes with their light, and appends the rays that these spawn to `next`.
     void grow(std::span<const Pending> rays, std::vector<Pending>& next);
@@ -101,7 +105,7 @@ private:
     };
     void append();
     void gather(std::span<const std::uint32_t> nodes);
-    void find_lobes();
+    void find_lobes(std::span<const Lobes* const> known = {});
     void light_points(bool shadows, accel::Coherence coherence);
     void begin_light(PointLanes& points, bool shadows);
     bool any_untried(const PointLanes& points) const;
@@ -126,7 +130,7 @@ private:
     std::vector<Seed> seeds_;
     std::vector<PointLanes> points_room_;  // made once: to clear so much each time would take longer than some of the work
     std::span<PointLanes> points_;         // what of it is in use
-    std::vector<Lobes> textured_;  // of points_, where these have textures
+    std::vector<TexturedLobes> textured_;  // of points_, where these have textures
     std::vector<std::uint32_t> parents_;
     std::vector<std::uint32_t> shadow_nodes_;
     std::vector<accel::Crossing> crossings_;

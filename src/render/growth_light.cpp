@@ -24,9 +24,9 @@ void make_shadow_rays(const Vec3Lanes& position, const Vec3Lanes& geometric_norm
 
 }  // namespace
 
-void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence coherence) {
+void Growth::light(std::span<const std::uint32_t> nodes, bool shadows, Coherence coherence, std::span<const Lobes* const> lobes) {
     gather(nodes);
-    find_lobes();
+    find_lobes(lobes);
     light_points(shadows, coherence);
 }
 

@@ -193,8 +193,7 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         const std::uint32_t first = growth.add_roots(points, tried_first);
         std::vector<std::uint32_t> roots(points.size());
         std::iota(roots.begin(), roots.end(), first);
-        growth.light(roots, true, accel::Coherence::coherent);
-        growth.spawn(roots, tile.growing);
+        growth.light_and_spawn(roots, accel::Coherence::coherent, tile.growing);
         tile.cursor = end + 1;
         if (deadline.passed()) return false;
     }

@@ -6,6 +6,7 @@
 #include "render/catcher.h"
 #include "render/level_lens.h"
 #include "render/path_sampler.h"
+#include "render/stand_ins.h"
 #include "render/surface_lobes.h"
 
 namespace crescente::render {
@@ -52,6 +53,9 @@ public:
     bool run(const Deadline& deadline) {
         tile_.samples.resize(tile_.nodes.size());
         tile_.estimates.resize(tile_.nodes.size() * groups_);
+        const bool some_wait = bound_ < most_ && share(deepest_split()) == 0;
+        if (some_wait) find_waiting();
+        if (some_wait && bound_ == 1 && tile_.cursor == 0) tile_.unsampled = radiances(tile_);
         while (tile_.cursor < tile_.nodes.size()) {
             std::size_t end = tile_.cursor;
             const std::size_t furthest = std::min(tile_.nodes.size(), end + most_looked_at);
@@ -60,9 +64,9 @@ public:
                 const std::uint32_t root = tile_.nodes[i].left_scene() ? no_node : root_of_seen(i);
                 if (root == no_node) continue;
                 if (renews_ && tile_.nodes[i].outdated) forget_samples(tile_, i);
-                const Wanted wanted{i, split_depth(depths_, root)};
+                const Wanted wanted{i, split_depth(depths_, root), !waiting_.empty() && waiting_[root]};
                 forget_too_many(wanted);
-                if (!tile_.nodes[i].sampled || tile_.samples[i] < goal(wanted)) chunk_.push_back(wanted);
+                if (tile_.samples[i] < goal(wanted) || (!tile_.nodes[i].sampled && tile_.samples[i] > 0)) chunk_.push_back(wanted);
             }
             const bool complete = sample_chunk(deadline);
             show_chunk();
@@ -71,6 +75,7 @@ public:
             tile_.cursor = end;
             if (deadline.passed() && end < tile_.nodes.size()) return false;
         }
+        if (!some_wait) release(tile_.unsampled);
         return true;
     }
 
@@ -78,7 +83,15 @@ private:
     struct Wanted {
         std::uint32_t node;
         SplitDepth depth;  // of its root
+        bool waits;        // others stand in for the root until its parts of pixels have a share in the round
     };
+
+    // What textures say of smoothness is not worth asking for that.
+    void find_waiting() {
+        waiting_.resize(tile_.nodes.size());
+        const auto ways = [&](std::uint32_t i) { return smooth_lobes(world_.lobes[tile_.nodes[i].material]); };
+        for_each_stand_in(tile_, ways, [&](std::uint32_t root, std::uint32_t) { waiting_[root] = true; });
+    }
 
     // no_node: the node is no part of the picture: below what was hidden, below rays that stand for lobes that are sampled, or in parts of pixels that are no more.
     std::uint32_t root_of_seen(std::uint32_t i) {
@@ -93,18 +106,27 @@ private:
 
     Smooth smooth_lobes_of(std::uint32_t i) { return smooth_lobes(lobes_of(world_, tile_, i, scratch_)); }
 
-    // A round gives a pixel about as many samples whether it is split or not, until the last gives every node what it needs.
+    // A round gives a pixel about as many samples whether it is split or not, until the last gives every node what it needs. splits: of the pixel.
+    std::uint32_t share(unsigned splits) const { return bound_ == most_ ? bound_ : bound_ >> (2 * splits); }
+
+    unsigned deepest_split() const {
+        unsigned deepest = 0;
+        for (const SplitDepth& depth : depths_) deepest = depth.parts == SplitDepth::none ? deepest : std::max<unsigned>(deepest, depth.parts);
+        return deepest;
+    }
+
     std::uint32_t goal(Wanted wanted) const {
-        const auto [i, depth] = wanted;
+        const auto [i, depth, waits] = wanted;
         if (tile_.nodes[i].outdated) return tile_.samples[i];
-        const std::uint32_t bound = bound_ == most_ ? bound_ : std::max(std::min(bound_, fewest_to_tell), bound_ >> (2 * depth.parts));
+        if (waits && share(depth.parts) == 0) return 0;
+        const std::uint32_t bound = std::max(std::min(bound_, fewest_to_tell), share(depth.parts));
         if (bound <= pilot) return bound;
         return tile_.samples[i] < pilot ? pilot : std::min(bound, samples_needed(world_, tile_, i, depth.place));
     }
 
     // After an edit a node may have more samples than a fresh render would have given it.
     void forget_too_many(Wanted wanted) {
-        const auto [i, depth] = wanted;
+        const auto [i, depth, waits] = wanted;
         const std::uint32_t samples = tile_.samples[i];
         const std::uint32_t needed = most_ <= pilot ? most_ : samples >= pilot ? samples_needed(world_, tile_, i, depth.place) : samples;
         if (samples > needed && !tile_.nodes[i].outdated) forget_samples(tile_, i);
@@ -142,7 +164,7 @@ private:
         }
     }
 
-    SamplePoint point_of(std::uint32_t i, Lobes& scratch) const {
+    SamplePoint point_of(std::uint32_t i, TexturedLobes& scratch) const {
         const Node& node = tile_.nodes[i];
         const Vec3 viewer = node.parent != no_node ? tile_.nodes[node.parent].position : world_.camera.viewer_of(node.position);
         SamplePoint point;
@@ -160,16 +182,17 @@ private:
 
     // Lights the chunk's nodes that have samples by them.
     void show_chunk() {
-        shown_.clear();
-        for (const auto [i, depth] : chunk_) {
+        shown_.clear(), shown_lobes_.clear();
+        for (std::size_t k = 0; k < chunk_.size(); ++k) {
+            const std::uint32_t i = chunk_[k].node;
             if (tile_.samples[i] == 0) continue;
-            shown_.push_back(i);
+            shown_.push_back(i), shown_lobes_.push_back(chunk_points_[k].lobes);
             Node& node = tile_.nodes[i];
-            const Smooth smooth = smooth_lobes_of(i);
+            const Smooth smooth = smooth_lobes(*chunk_points_[k].lobes);
             node.sampled = true;
             node.samples_reflection = !smooth.reflects, node.samples_refraction = !smooth.refracts;
         }
-        growth_.light(shown_, true, accel::Coherence::coherent);
+        growth_.light(shown_, true, accel::Coherence::coherent, shown_lobes_);
     }
 
     Growth& growth_;
@@ -179,12 +202,14 @@ private:
     const bool renews_;
     const std::uint32_t most_, bound_;
     const std::vector<SplitDepth> depths_;
+    std::vector<bool> waiting_;  // roots that others stand in for; empty: none has to wait in this round
     PathSampler sampler_;
-    Lobes scratch_;  // of a textured material
+    TexturedLobes scratch_;
     std::vector<Wanted> chunk_;
     std::vector<std::uint32_t> wanting_, shown_;
     std::vector<SamplePoint> chunk_points_, points_;
-    std::vector<Lobes> chunk_lobes_;  // of textured materials
+    std::vector<TexturedLobes> chunk_lobes_;
+    std::vector<const Lobes*> shown_lobes_;
     std::vector<Scattering> surfaces_;
     std::vector<SampledLight> light_;
 };

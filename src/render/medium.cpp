@@ -52,7 +52,7 @@ Rgb passage(const World& world, std::vector<Medium> media, std::span<const accel
         if (i > 0 && crossings[i - 1].hit.instance == hit.instance && hit.t - crossings[i - 1].hit.t <= same * hit.t) continue;
         const accel::Instance& instance = world.instances[hit.instance];
         const std::uint32_t material = world.material(hit.instance, geometry::slot(*instance.shape, hit.primitive));
-        Lobes scratch;
+        TexturedLobes scratch;
         const Lobes& lobes = world.textured_material(material) ? lobes_at(world, material, texture_point(world, ray, hit, path()), scratch) : world.lobes[material];
         filter *= straight_only && lobes.refracts() && lobes.ior != 1 ? lobes.straight : lobes.shadow_filter;
         if (!world.absorbs) continue;

@@ -32,7 +32,7 @@ TexturePoint texture_point(const World& world, const geometry::Ray& ray, const a
             world.camera.pixel_width(path + hit.t), inside};
 }
 
-const Lobes& lobes_of(const World& world, const Tile& tile, std::uint32_t node, Lobes& scratch) {
+const Lobes& lobes_of(const World& world, const Tile& tile, std::uint32_t node, TexturedLobes& scratch) {
     const std::uint32_t material = tile.nodes[node].material;
     if (!world.textured_material(material)) return world.lobes[material];
     return lobes_at(world, material, texture_point(world, tile, node), scratch);

@@ -2,22 +2,25 @@
 // not World::lobes, which has what the material says without its textures.
 #pragma once
 
+#include <optional>
+
 #include "render/forest.h"
 #include "render/textured_material.h"
 #include "render/world.h"
 
 namespace crescente::render {
 
+// Where lobes are kept that textures made; empty until then, as lobes are too large to be cleared for nothing.
+using TexturedLobes = std::optional<Lobes>;
+
 // Of any place: `scratch` keeps the answer where the material has textures.
-inline const Lobes& lobes_at(const World& world, std::uint32_t material, const TexturePoint& point, Lobes& scratch) {
+inline const Lobes& lobes_at(const World& world, std::uint32_t material, const TexturePoint& point, TexturedLobes& scratch) {
     const TexturedMaterial* textured = world.textured_material(material);
-    if (!textured) return world.lobes[material];
-    scratch = textured->lobes_at(point);
-    return scratch;
+    return textured ? scratch.emplace(textured->lobes_at(point)) : world.lobes[material];
 }
 
 // Of a node that did not leave the scene. Derived from the tile's nodes alone: from where it is and the path that leads there.
-const Lobes& lobes_of(const World& world, const Tile& tile, std::uint32_t node, Lobes& scratch);
+const Lobes& lobes_of(const World& world, const Tile& tile, std::uint32_t node, TexturedLobes& scratch);
 
 // Whether the coat of a material may have another normal than what is below.
 inline bool has_own_coat(const World& world, std::uint32_t material) {

@@ -90,7 +90,7 @@ template <class Archive>
 void columns(Archive& a, Tile& tile) {
     // Every member, so that a new one cannot be forgotten here: it is to be written, checked (tile_check.cpp) and makes another checkpoint_version. Previews
     // are not written: a session that goes on shows what the trees say.
-    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, lens_samples, lens_estimates, lens_pixels, lens_clear, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
+    [[maybe_unused]] auto& [x0, y0, width, height, all_nodes, shares, filtered, straight, samples, estimates, lens_samples, lens_estimates, lens_pixels, lens_clear, unsampled, corners, pending, growing, quads, quads_before, subpixel_roots, stage,
                             cursor, todo, pixels, clear_pixels, pixels_stage, previewed_until, kept, going_on, lit, all_lit, all_spawned, keeps_clear, materials, revision, changed,
                             unsettled, untried, lens_piloted, forgotten, resamples, split_anew, ray_counts, test_counts] = tile;
     nodes(a, all_nodes);
