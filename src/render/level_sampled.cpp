@@ -89,8 +89,9 @@ private:
     // What textures say of smoothness is not worth asking for that.
     void find_waiting() {
         waiting_.resize(tile_.nodes.size());
+        const auto all = [](std::uint32_t) { return true; };
         const auto ways = [&](std::uint32_t i) { return smooth_lobes(world_.lobes[tile_.nodes[i].material]); };
-        for_each_stand_in(tile_, ways, [&](std::uint32_t root, std::uint32_t) { waiting_[root] = true; });
+        for_each_stand_in(tile_, all, ways, [&](std::uint32_t root, std::uint32_t) { waiting_[root] = true; });
     }
 
     // no_node: the node is no part of the picture: below what was hidden, below rays that stand for lobes that are sampled, or in parts of pixels that are no more.

@@ -10,10 +10,11 @@ template <class T, class AsAt>
 void let_stand_in(const Tile& tile, std::vector<T>& values, AsAt&& as_at) {
     const auto waits = [&](std::uint32_t root) { return root < tile.samples.size() && tile.samples[root] == 0; };
     const auto ways = [&](std::uint32_t i) { return Smooth{!tile.nodes[i].samples_reflection, !tile.nodes[i].samples_refraction}; };
-    std::vector<std::uint8_t> stand_ins(tile.nodes.size());
-    std::vector<T> sums(tile.nodes.size());
-    for_each_stand_in(tile, ways, [&](std::uint32_t root, std::uint32_t corner) {
-        if (!waits(root) || (!tile.nodes[corner].sampled && stand_ins[corner] == 0)) return;
+    std::vector<std::uint8_t> stand_ins;  // how many; by node, as soon as there is one
+    std::vector<T> sums;
+    for_each_stand_in(tile, waits, ways, [&](std::uint32_t root, std::uint32_t corner) {
+        if (!tile.nodes[corner].sampled && (stand_ins.empty() || stand_ins[corner] == 0)) return;
+        if (stand_ins.empty()) stand_ins.resize(tile.nodes.size()), sums.resize(tile.nodes.size());
         sums[root] += as_at(values[corner], root, corner);
         values[root] = sums[root] * (1.0f / static_cast<float>(++stand_ins[root]));
     });

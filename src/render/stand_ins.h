@@ -28,14 +28,15 @@ bool see_the_same(const Tile& tile, std::uint32_t a, std::uint32_t b, WaysOf&& w
     return (!ways.reflects || same(one.reflected, other.reflected)) && (!ways.refracts || same(one.refracted, other.refracted));
 }
 
-// Calls visit(root, corner) for each root on a surface that splitting a quad added, and each corner of that quad that sees the same; all of larger quads first.
-template <class WaysOf, class Visit>
-void for_each_stand_in(const Tile& tile, WaysOf&& ways_of, Visit&& visit) {
+// Calls visit(root, corner) for each root on a surface that splitting a quad added, if it is asked for, and each corner of that quad that sees the same; all of
+// larger quads first.
+template <class IsAsked, class WaysOf, class Visit>
+void for_each_stand_in(const Tile& tile, IsAsked&& is_asked, WaysOf&& ways_of, Visit&& visit) {
     for (const Quad& quad : tile.quads) {
         if (quad.parts == no_node) continue;
         const auto corner_of_part = [&](std::uint32_t part, std::uint32_t corner) { return tile.quads[quad.parts + part].corners[corner]; };
         for (const std::uint32_t root : {corner_of_part(0, 1), corner_of_part(0, 2), corner_of_part(0, 3), corner_of_part(1, 3), corner_of_part(2, 3)}) {
-            if (root == no_node || tile.nodes[root].left_scene()) continue;
+            if (root == no_node || !is_asked(root) || tile.nodes[root].left_scene()) continue;
             for (const std::uint32_t corner : quad.corners) {
                 if (corner != no_node && see_the_same(tile, root, corner, ways_of)) visit(root, corner);
             }
