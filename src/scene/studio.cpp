@@ -67,11 +67,10 @@ struct Panel {
     bool round = false;  // a disk as wide as that
 };
 
-// Panels, what surrounds them, and the backdrop.
+// Panels, the radiance of what surrounds them, as light and in mirrors alike, and the backdrop.
 struct Set {
     std::vector<Panel> panels;
     float zenith, horizon, nadir;
-    double strength;
     float backdrop_bottom, backdrop_top;
     int directions = 20;
 };
@@ -80,22 +79,22 @@ Set set_of(Studio studio) {
     constexpr math::Rgb warm{1.0f, 0.97f, 0.93f}, cool{0.93f, 0.96f, 1.0f}, white{1, 1, 1};
     switch (studio) {
         case Studio::standard:  // a round key light, a rim from behind, light from all of the upper half
-            return {{{"key", -42, 46, 5, 2.2, 2.2, 2.9, warm, 16, true}, {"rim", 150, 38, 5, 1.6, 1.6, 1.0, cool, 5, true}}, 1.25f, 0.62f, 0.22f, 0.44, 0.55f, 0.75f};
+            return {{{"key", -42, 46, 5, 2.2, 2.2, 2.9, warm, 16, true}, {"rim", 150, 38, 5, 1.6, 1.6, 1.0, cool, 5, true}}, 0.55f, 0.27f, 0.1f, 0.55f, 0.75f};
         case Studio::softbox:  // one large window of light, the other side lifted
-            return {{{"soft box", -45, 42, 4, 2.6, 2.6, 3.2, white, 16}, {"reflector", 70, 15, 4.5, 2.5, 2.5, 0.5, white}}, 0.9f, 0.6f, 0.25f, 0.3, 0.5f, 0.72f};
+            return {{{"soft box", -45, 42, 4, 2.6, 2.6, 3.2, white, 16}, {"reflector", 70, 15, 4.5, 2.5, 2.5, 0.5, white}}, 0.27f, 0.18f, 0.075f, 0.5f, 0.72f};
         case Studio::three_point:  // key, fill, rim
             return {{{"key", -40, 42, 4.5, 1.4, 1.4, 3.0, warm}, {"fill", 55, 18, 5, 2.6, 2.6, 0.9, white}, {"rim", 160, 42, 4.5, 0.7, 2.6, 2.6, cool}},
-                    0.5f, 0.35f, 0.15f, 0.25, 0.3f, 0.5f};
+                    0.125f, 0.0875f, 0.0375f, 0.3f, 0.5f};
         case Studio::overhead:  // a strip above, across the view
-            return {{{"strip", 0, 84, 3.2, 5, 1.1, 3.6, white, 16}, {"front", 0, 20, 5, 3, 1, 0.9, white}}, 0.7f, 0.4f, 0.2f, 0.3, 0.35f, 0.6f};
+            return {{{"strip", 0, 84, 3.2, 5, 1.1, 3.6, white, 16}, {"front", 0, 20, 5, 3, 1, 0.9, white}}, 0.21f, 0.12f, 0.06f, 0.35f, 0.6f};
         case Studio::tent:  // white cloth on all sides: hardly a shadow, and for glossy things nothing dark to mirror
             return {{{"left", -85, 30, 2.8, 3.4, 3.4, 1.2, white}, {"right", 85, 30, 2.8, 3.4, 3.4, 1.2, white}, {"back", 180, 30, 2.8, 3.4, 3.4, 0.9, white},
                      {"top", 0, 86, 2.8, 3.4, 3.4, 1.6, white}},
-                    1.1f, 1.0f, 0.7f, 0.45, 0.85f, 0.95f};
+                    0.495f, 0.45f, 0.315f, 0.85f, 0.95f};
         case Studio::turntable:  // the same light from every side, so that a model that turns, or is walked around, stays as it is; strips for edges to mirror
             return {{{"top", 0, 88, 3.2, 2.6, 2.6, 2.2, white, 16, true}, {"strip 1", -60, 28, 4.2, 1, 3, 1.1, white}, {"strip 2", 60, 28, 4.2, 1, 3, 1.1, white},
                      {"strip 3", 180, 28, 4.2, 1, 3, 0.8, white}},
-                    1.0f, 0.75f, 0.3f, 0.4, 0.7f, 0.85f};
+                    0.4f, 0.3f, 0.12f, 0.7f, 0.85f};
     }
     return {};
 }
@@ -188,7 +187,7 @@ void add_studio_lights(Scene& scene, const Placement& at, Studio studio) {
     if (scene.environment) return;
     Environment around;
     around.zenith = gray(set.zenith), around.horizon = gray(set.horizon), around.nadir = gray(set.nadir);
-    around.strength = set.strength;
+    around.strength = 1;
     around.directions = set.directions;
     around.backdrop = true;
     around.backdrop_bottom = gray(set.backdrop_bottom), around.backdrop_top = gray(set.backdrop_top);
