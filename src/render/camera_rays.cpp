@@ -1,5 +1,9 @@
 #include "render/camera_rays.h"
 
+#include <limits>
+
+#include "render/ray_lanes.h"
+
 namespace crescente::render {
 
 CameraRays::CameraRays(const scene::Camera& camera, int width, int height)
@@ -15,20 +19,26 @@ CameraRays::CameraRays(const scene::Camera& camera, int width, int height)
     right_ *= half * width * camera.pixel_aspect / height;
 }
 
+template <class T>
+CameraRays::Line<T> CameraRays::line_through(const T& x, const T& y) const {
+    const T sx = 2.0 * x / double(width_) - 1.0, sy = 1.0 - 2.0 * y / double(height_);
+    const VecOf<T> across{right_.x * sx + up_.x * sy, right_.y * sx + up_.y * sy, right_.z * sx + up_.z * sy};
+    const auto all = [](Vec3 v) { return VecOf<T>{T{} + v.x, T{} + v.y, T{} + v.z}; };
+    if (orthographic_) return {all(position_) + across, all(forward_), T{} + near_};
+    const VecOf<T> direction = normalize(all(forward_) + across);
+    return {all(position_), direction, near_ / dot(direction, all(forward_))};
+}
+
 geometry::Ray CameraRays::through(double x, double y) const {
-    const double sx = 2 * x / width_ - 1, sy = 1 - 2 * y / height_;
+    const Line<double> line = line_through(x, y);
     geometry::Ray ray;
-    const Vec3 across = right_ * sx + up_ * sy;
-    if (orthographic_) {
-        ray.origin = position_ + across;
-        ray.direction = forward_;
-        ray.t_min = near_;
-    } else {
-        ray.origin = position_;
-        ray.direction = normalize(forward_ + across);
-        ray.t_min = near_ / dot(ray.direction, forward_);
-    }
+    ray.origin = vec3(line.origin), ray.direction = vec3(line.direction), ray.t_min = line.t_min;
     return ray;
+}
+
+void CameraRays::through(const Lanes& x, const Lanes& y, geometry::Ray* rays) const {
+    const Line<Lanes> line = line_through(x, y);
+    make_rays(line.origin, line.direction, line.t_min, Lanes{} + std::numeric_limits<double>::infinity(), rays);
 }
 
 geometry::Ray CameraRays::through_lens(double x, double y, double right, double up, double focus) const {

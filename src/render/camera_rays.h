@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "geometry/ray.h"
+#include "math/vec_lanes.h"
 #include "scene/camera.h"
 
 namespace crescente::render {
@@ -16,6 +17,9 @@ public:
 
     // Through the point (x, y), in pixels from the top left corner; the direction has unit length, t_min is the near plane.
     geometry::Ray through(double x, double y) const;
+
+    // Eight of them at once, the same to the bit.
+    void through(const Lanes& x, const Lanes& y, geometry::Ray* rays) const;
 
     // The same from a point of a lens around it, so many metres to the right and up, which is focused at a distance along the view direction. What is there is where
     // the pinhole sees it.
@@ -44,6 +48,13 @@ public:
     int height() const { return height_; }
 
 private:
+    template <class T>
+    struct Line {
+        VecOf<T> origin, direction;
+        T t_min;
+    };
+    template <class T>
+    Line<T> line_through(const T& x, const T& y) const;
     Projected at(Vec3 across, double depth) const;
 
     Vec3 position_, forward_, right_, up_;  // right and up span the half picture at distance 1 (or at the plane, orthographic)

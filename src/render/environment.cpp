@@ -4,7 +4,8 @@ namespace crescente::render {
 
 Environment::Environment(const scene::Environment& source)
     : source_(source), cos_(std::cos(source.rotation)), sin_(std::sin(source.rotation)),
-      brightness_{luminance(source.nadir), luminance(source.horizon), luminance(source.zenith)} {
+      brightness_{luminance(source.nadir), luminance(source.horizon), luminance(source.zenith)},
+      even_(source.nadir == source.horizon && source.zenith == source.horizon) {
     total_ = brightness_[0] / 2 + brightness_[1] + brightness_[2] / 2;
 }
 
@@ -17,6 +18,7 @@ bool Environment::same_radiance(const Environment& other) const {
 // Of the gradient: linear in the height of the direction between nadir, horizon and zenith.
 Rgb Environment::radiance(Vec3 direction) const {
     if (panorama()) return panorama()->radiance(in_picture(direction));
+    if (even_) return source_.horizon;
     const auto y = static_cast<float>(direction.y);
     return y >= 0 ? mix(source_.horizon, source_.zenith, y) : mix(source_.horizon, source_.nadir, -y);
 }

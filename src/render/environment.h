@@ -46,6 +46,7 @@ private:
     scene::Environment source_;
     double cos_ = 1, sin_ = 0;            // of the picture's rotation
     std::array<double, 3> brightness_{};  // at nadir, horizon, zenith
+    bool even_ = true;                    // a gradient of one colour
     double total_ = 0;                    // integral of the brightness over the height, -1 to 1
 };
 

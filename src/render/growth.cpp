@@ -16,12 +16,24 @@ using accel::Coherence;
 using accel::Hit;
 using geometry::Ray;
 
+void camera_rays(const World& world, std::span<const LatticePoint> points, std::vector<Ray>& rays) {
+    rays.resize((points.size() + lane_count - 1) / lane_count * lane_count);
+    for (std::size_t block = 0; block < points.size(); block += lane_count) {
+        Lanes x, y;
+        for (int i = 0; i < lane_count; ++i) {
+            const LatticePoint& p = points[std::min(block + i, points.size() - 1)];
+            x[i] = p.x, y[i] = p.y;
+        }
+        world.camera.through(x * pixels_per_step, y * pixels_per_step, &rays[block]);
+    }
+    rays.resize(points.size());
+}
+
 }  // namespace
 
 std::uint32_t Growth::add_roots(std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 4>> tried_first) {
     const auto first = static_cast<std::uint32_t>(tile_.nodes.size());
-    rays_.clear();
-    for (const LatticePoint& p : points) rays_.push_back(camera_ray(world_, p));
+    camera_rays(world_, points, rays_);
     hits_.resize(points.size());
     accel::TestCounts counts;
 
@@ -216,7 +228,7 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
             direction = blend(refracted, through, direction);
         }
         if (straight) direction = blend(straight, -p.viewer, direction);
-        make_rays(starts(p.position, p.geometric, p.offset, direction), direction, Lanes{} + std::numeric_limits<double>::infinity(),
+        make_rays(starts(p.position, p.geometric, p.offset, direction), direction, Lanes{}, Lanes{} + std::numeric_limits<double>::infinity(),
                   &rays_[block * lane_count]);
     }
     rays_.resize(pending.size());

@@ -19,6 +19,7 @@ struct LatticePoint {
     std::uint32_t x, y;
 };
 inline constexpr int subpixel_bits = 6;  // more than the most splits that the settings allow
+inline constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
 
 // What Tile::subpixel_roots goes by.
 constexpr std::uint64_t key_of(LatticePoint p) { return std::uint64_t{p.y} << 32 | p.x; }
@@ -28,7 +29,6 @@ constexpr LatticePoint point_of(std::uint64_t key) { return {static_cast<std::ui
 constexpr LatticePoint corner_point(int x, int y) { return {static_cast<std::uint32_t>(x) << subpixel_bits, static_cast<std::uint32_t>(y) << subpixel_bits}; }
 
 inline geometry::Ray camera_ray(const World& world, LatticePoint point) {
-    constexpr double pixels_per_step = 1.0 / (1 << subpixel_bits);
     return world.camera.through(point.x * pixels_per_step, point.y * pixels_per_step);
 }
 

@@ -19,7 +19,7 @@ using geometry::Ray;
 // Eight rays from points to the light that they reach so.
 void make_shadow_rays(const Vec3Lanes& position, const Vec3Lanes& geometric_normal, const Lanes& offset, const Reach<Lanes>& reach, Ray* rays) {
     // Short of a surface that the lamp lies in.
-    make_rays(starts(position, geometric_normal, offset, reach.to_light), reach.to_light, reach.distance * (1 - 1e-12) - 2.0 * offset, rays);
+    make_rays(starts(position, geometric_normal, offset, reach.to_light), reach.to_light, Lanes{}, reach.distance * (1 - 1e-12) - 2.0 * offset, rays);
 }
 
 }  // namespace

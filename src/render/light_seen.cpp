@@ -48,13 +48,12 @@ void light_sky(const World& world, Tile& tile, std::uint32_t i, LatticePoint poi
     tile.keeps_clear = tile.keeps_clear || apart;
     node.local = {};
     if (!root && catches(world, tile, node.parent) && !goes_straight(world, tile, i)) return;  // it mirrors objects alone
-    const Ray ray = root ? camera_ray(world, point) : Ray{tile.nodes[node.parent].position, node.position};
-    Rgb around;
-    if (!apart) {
-        around = root && world.environment.backdrop() ? backdrop_radiance(world.environment, 1 - point.y / (double(1 << subpixel_bits) * world.camera.height()))
-                                                      : environment_radiance(world.environment, ray.direction);
+    if (world.emitters.groups() > 0) {
+        node.local = lights_on(world, root ? camera_ray(world, point) : Ray{tile.nodes[node.parent].position, node.position}, sender_of(world, tile, i));
     }
-    node.local = lights_on(world, ray, sender_of(world, tile, i)) + around;
+    if (apart) return;
+    node.local += root && world.environment.backdrop() ? backdrop_radiance(world.environment, 1 - point.y * pixels_per_step / world.camera.height())
+                                                       : environment_radiance(world.environment, node.position);
 }
 
 Rgb lights_before(const World& world, const Tile& tile, std::uint32_t i) {

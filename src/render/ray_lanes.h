@@ -16,9 +16,8 @@ inline Vec3Lanes starts(const Vec3Lanes& position, const Vec3Lanes& geometric_no
     return position + geometric_normal * (dot(geometric_normal, direction) >= 0.0 ? offset : -offset);
 }
 
-// Eight rays that begin at their origins.
-inline void make_rays(const Vec3Lanes& origin, const Vec3Lanes& direction, const Lanes& t_max, geometry::Ray* rays) {
-    Lanes rows[lane_count] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, Lanes{}, t_max};
+inline void make_rays(const Vec3Lanes& origin, const Vec3Lanes& direction, const Lanes& t_min, const Lanes& t_max, geometry::Ray* rays) {
+    Lanes rows[lane_count] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, t_min, t_max};
     transpose(rows);
     std::memcpy(static_cast<void*>(rays), rows, sizeof rows);
 }

@@ -2,7 +2,8 @@
 // not World::lobes, which has what the material says without its textures.
 #pragma once
 
-#include <optional>
+#include <new>
+#include <type_traits>
 
 #include "render/forest.h"
 #include "render/textured_material.h"
@@ -10,13 +11,23 @@
 
 namespace crescente::render {
 
-// Where lobes are kept that textures made; empty until then, as lobes are too large to be cleared for nothing.
-using TexturedLobes = std::optional<Lobes>;
+// Room for lobes that textures make. Lobes are large: it is not cleared, as even an empty std::optional would be (gcc, PR 86173).
+class TexturedLobes {
+public:
+    TexturedLobes() {}
+    const Lobes& keep(const TexturedMaterial& material, const TexturePoint& point) { return *::new (&lobes_) Lobes(material.lobes_at(point)); }
+
+private:
+    static_assert(std::is_trivially_copyable_v<Lobes>);
+    union {
+        Lobes lobes_;
+    };
+};
 
 // Of any place: `scratch` keeps the answer where the material has textures.
 inline const Lobes& lobes_at(const World& world, std::uint32_t material, const TexturePoint& point, TexturedLobes& scratch) {
     const TexturedMaterial* textured = world.textured_material(material);
-    return textured ? scratch.emplace(textured->lobes_at(point)) : world.lobes[material];
+    return textured ? scratch.keep(*textured, point) : world.lobes[material];
 }
 
 // Of a node that did not leave the scene. Derived from the tile's nodes alone: from where it is and the path that leads there.
