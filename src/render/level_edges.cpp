@@ -100,6 +100,15 @@ void keep_roots_around(const std::vector<Place>& places, std::span<const std::ui
     }
 }
 
+// For what splitting will add, as far as can be told: about four corners each, most shared with neighbours, with trees as large as those there are.
+void make_room(Tile& tile) {
+    if (tile.all_lit > 0) return;  // little is added after an edit
+    const std::size_t roots = tile.corners.size() + tile.subpixel_roots.size(), more_roots = 4 * tile.todo.size(), more = more_roots * tile.nodes.size() / roots;
+    tile.subpixel_roots.reserve(tile.subpixel_roots.size() + more_roots);
+    tile.nodes.reserve(tile.nodes.size() + more);
+    tile.shares.reserve(tile.shares.size() + more * tile.shares.size() / tile.nodes.size());
+}
+
 }  // namespace
 
 void unsplit(Tile& tile, const scene::Settings& settings) {
@@ -167,6 +176,7 @@ bool advance_edges(Growth& growth, const Stage& stage, const Deadline& deadline)
         for (const std::uint32_t quad : whole_again) tile.quads[quad].parts = no_node;
         tile.forgotten += whole_again.size();
         tile.cursor = 1;
+        make_room(tile);
     }
 
     // New corners, a chunk at a time, each grown to the end before the next. `todo` lists places by index; the cursor is one more than
