@@ -16,7 +16,7 @@ std::vector<Rgb> develop(const Tile& tile, const Corrections& corrections = {});
 // The share of what is behind the scene that is seen in each pixel, in the same way; empty: none in any, or the picture does not keep it apart.
 std::vector<float> develop_clear(const Tile& tile, const Corrections& corrections = {});
 
-// Makes what the tile shows its `pixels`, and gives these up. `displayed`: if not empty, the colours that were shown, which the filter had a share in.
+// Makes what the tile shows its `pixels`, and gives these up. `displayed`: if not empty, the colours that were shown, which need not be told anew, and may be filtered.
 void keep_picture(Tile& tile, std::span<const Rgb> displayed = {});
 void forget_picture(Tile& tile);
 

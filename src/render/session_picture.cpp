@@ -69,11 +69,11 @@ std::vector<bool> Session::State::with_neighbours(const std::vector<bool>& which
     return wider;
 }
 
-// What a tile shows in the image, if the filter had a share in it.
-void Session::State::remember(std::size_t tile, const scene::Image& image, bool was_filtered) {
+// What a tile shows in the image; nothing, if it can be told from its trees and memory is scarce.
+void Session::State::remember(std::size_t tile, const scene::Image& image, bool pixels) {
     Displayed& own = displayed[tile];
     own.time = clock;
-    if (!was_filtered) return release(own.pixels);
+    if (!pixels) return release(own.pixels);
     const Tile& t = tiles[tile];
     const scene::Layer& color = image.layers[0];
     own.pixels.clear();
@@ -87,7 +87,8 @@ void Session::State::remember(std::size_t tile, const scene::Image& image, bool 
 
 void Session::State::show(scene::Image& image, const std::vector<bool>& which, bool regrow) {
     const bool filtered = denoises();
-    if (filtered) displayed.resize(tiles.size());
+    const bool roomy = world->scene.settings.keep && world->scene.settings.memory == 0;
+    if (filtered || roomy) displayed.resize(tiles.size());
     else release(displayed);
     const auto is_dropped = [](const Tile& tile) { return tile.shows_pixels(); };
     const auto is_done = [&](const Tile& tile) { return is_known(tile) && tile.shown_stage() == static_cast<int>(stages.size()); };
@@ -117,7 +118,7 @@ void Session::State::show(scene::Image& image, const std::vector<bool>& which, b
         pool.for_each(tiles.size(), [&](std::size_t i) {
             if (!shown[i]) return;
             expose(*trees[i], *world, level_of_stage, image, corrections[i]);
-            if (filtered && is_known(tiles[i])) remember(i, image, !corrections[i].radiance.empty());
+            if (!displayed.empty() && is_known(tiles[i])) remember(i, image, roomy || !corrections[i].radiance.empty());
         });
     }
 }

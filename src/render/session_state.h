@@ -46,11 +46,11 @@ struct Session::State {
     std::uint64_t clock = 0;                     // ticks when tiles may change
     bool is_finished = false;                    // the picture, at the end of the last advance()
     std::uint64_t finished = 0;                  // when it last became so
-    struct Displayed {  // a tile's pixels as they were last shown, if the filter had a share in them
+    struct Displayed {  // a tile's pixels as they were last shown; empty, if they are what its trees say and memory is scarce
         std::vector<Rgb> pixels;
         std::uint64_t time = 0;  // of the clock
     };
-    std::vector<Displayed> displayed;            // beside tiles, once anything was filtered: edits go on from what the user saw
+    std::vector<Displayed> displayed;            // beside tiles: edits go on from what the user saw
     std::vector<SeenPoint> seen;                 // by pixel, from the last camera whose picture had all its corners; until the present one's has
     Area attended;                               // where the user looks
     RayCounts past_rays;                         // of tiles that were given up when the picture's size changed
@@ -76,7 +76,7 @@ struct Session::State {
     void take_spare(Tile& tile);
     void drop_finished(Tile& tile);
     void show(scene::Image& image, const std::vector<bool>& which, bool regrow);  // these tiles, as they are or, where they were dropped, grown anew
-    void remember(std::size_t tile, const scene::Image& image, bool was_filtered);
+    void remember(std::size_t tile, const scene::Image& image, bool pixels);
     bool is_known(const Tile& tile) const { return tile.revision == edits && !tile.unsettled; }  // to the trees, what the scene is
     bool denoises() const;                                                                // some tile may show what has too few samples
     std::vector<bool> with_neighbours(const std::vector<bool>& which) const;              // those too by which the filter finds what these show
