@@ -52,6 +52,8 @@ bool write_all(int to, const char* bytes, std::size_t count) {
     __fpurge(stdout);  // what the other process has yet to print is its own matter
     dup2(printed_to, STDOUT_FILENO);
     dup2(printed_to, STDERR_FILENO);
+    // What else is open is not its business: who waits for the end of a pipe that another thread made meanwhile would wait for this process, too.
+    close_range(STDERR_FILENO + 1, static_cast<unsigned>(to) - 1, 0), close_range(static_cast<unsigned>(to) + 1, ~0u, 0);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, static_cast<rlim_t>(limits.time.count()));
     limit(RLIMIT_AS, address_space() + limits.memory);

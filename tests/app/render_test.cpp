@@ -99,6 +99,9 @@ TEST_F(Render, EnvironmentLightsABareModel) {
     const Outcome absent = crescente({"render", model, "-o", path("a.png"), "--environment", path("absent.hdr")});
     EXPECT_EQ(absent.code, 3) << absent.err;
     EXPECT_TRUE(contains(absent.err, "absent.hdr")) << absent.err;
+    const Outcome neither = crescente({"render", path("absent.glb"), "-o", path("a.png"), "--environment", path("absent.hdr")});
+    EXPECT_EQ(neither.code, 3) << neither.err;
+    EXPECT_TRUE(contains(neither.err, "absent.glb") && contains(neither.err, "absent.hdr")) << neither.err;
 }
 
 TEST_F(Render, DaylightByAnglesOrByTimeAndPlace) {

@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "io/packed_scene.h"
 #include "reader_check.h"
 
@@ -45,6 +48,16 @@ TEST(Isolated, WorkWithoutEndIsEnded) {
     };
     EXPECT_EQ(run_isolated(busy, brief()).error(), IsolationFailure::too_long);
     EXPECT_EQ(run_isolated([](auto&) -> std::string { for (;;) std::raise(SIGSTOP); }, brief()).error(), IsolationFailure::too_long);
+}
+
+// Else the end of another's pipe would not be seen before the work is done.
+TEST(Isolated, TheWorkHoldsNoFileOpen) {
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    const auto is_open = [&](auto&) { return std::string(fcntl(ends[1], F_GETFD) != -1 ? "open" : "closed"); };
+    EXPECT_EQ(run_isolated(is_open, {}).value(), "closed");
+    EXPECT_NE(fcntl(ends[1], F_GETFD), -1);
+    close(ends[0]), close(ends[1]);
 }
 
 TEST(PackedScene, ComesBackAsItWas) {

@@ -1,6 +1,8 @@
 #include "app/cli/load.h"
 
 #include <algorithm>
+#include <future>
+#include <iterator>
 
 #include "io/overrides.h"
 #include "io/panorama_file.h"
@@ -65,24 +67,46 @@ Expected<void> look_through_lens(const SceneRequest& request, scene::Scene& scen
     return request.lens.focus_on_middle ? focus_on_middle(scene) : Expected<void>{};
 }
 
+struct Surroundings {
+    scene::Environment environment;  // image or sky, and panorama
+    Expected<Problems> warnings;
+};
+
+// Begun at once, as it takes as long as many a model.
+std::future<Surroundings> surroundings_of(const SceneRequest& request) {
+    if (!request.environment && !request.sky) return {};
+    return std::async([image = request.environment.value_or(""), sky = request.sky.value_or("")] {
+        Surroundings around;
+        around.environment.image = image, around.environment.sky = sky;
+        around.warnings = io::load_panorama(around.environment, {});
+        return around;
+    });
+}
+
 }  // namespace
 
 Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& options) {
     io::ReadOptions reading = options;
     reading.texture_pattern = request.texture_pattern;
+    std::future<Surroundings> surroundings = surroundings_of(request);
     auto loaded = io::read_scene(request.file, reading);
-    if (!loaded) return loaded;
+    Surroundings around;
+    if (surroundings.valid()) around = surroundings.get();
+    if (!loaded) {
+        if (!around.warnings) std::move(around.warnings.error().problems.begin(), around.warnings.error().problems.end(), std::back_inserter(loaded.error().problems));
+        return loaded;
+    }
     scene::Scene& scene = loaded->scene;
 
     for (const auto& [field, value] : request.settings) field->set(scene.settings, value);
     if (request.environment || request.sky) {
+        if (!around.warnings) return tl::unexpected<Error>(std::move(around.warnings.error()));
+        loaded->warnings.insert(loaded->warnings.end(), around.warnings->begin(), around.warnings->end());
         if (!scene.environment) scene.environment.emplace();
         if (request.sky) scene.environment->rotation = 0, scene.environment->intensity = 1;
-        scene.environment->image = request.environment.value_or("");
-        scene.environment->sky = request.sky.value_or("");
-        auto warnings = io::load_panorama(*scene.environment, {});
-        if (!warnings) return tl::unexpected<Error>(std::move(warnings.error()));
-        loaded->warnings.insert(loaded->warnings.end(), warnings->begin(), warnings->end());
+        scene.environment->image = std::move(around.environment.image);
+        scene.environment->sky = std::move(around.environment.sky);
+        scene.environment->panorama = std::move(around.environment.panorama);
     }
     const auto applied = apply_overrides(request.overrides, scene);
     if (!applied) return tl::unexpected<Error>(applied.error());
