@@ -88,6 +88,8 @@ CosineTable<float> dielectric_rise(double ior) {
     return tabled_law([rise = fresnel_rise(ior)](double cosine) { return rise.at(cosine); });
 }
 
+FacetsAndLayer facets_and_layer(const FacetSums& facets, double ior) { return {facets.sums, reflectance(facets.shares, dielectric_rise(ior))}; }
+
 CosineTable<float> coat_reflectances(const FacetShares& shares) {
     return reflectance(shares, tabled_law([](double cosine) { return fresnel_dielectric(cosine, coat_ior); }));
 }
@@ -204,9 +206,6 @@ void set_layer(Lobes& lobes, const CosineTable<float>& film) {
     for (std::size_t i = 0; i < film.size(); ++i) lobes.layer_lean[i] = kept(lobes.lean[i].whole(), lobes.rise_lean[i]) * (1 - lobes.film);
 }
 
-// Of an infinite index the rise to grazing angles is nothing that an index says: as that of glass, which is near to Schlick's approximation.
-constexpr double schlick_ior = 1.5;
-
 // sums_of: of facets, by their roughness and stretch. whole: of the material without textures, null if this is it.
 template <class SumsOf>
 Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const Lobes* whole) {
@@ -218,7 +217,7 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         return compile_physical(metal, sums_of, whole);
     }
     const bool endless = m.ior == 0;  // infinite (KHR_materials_ior): whatever does not come back is lost in the body
-    const double ior = endless ? schlick_ior : m.ior, r0 = endless ? 1 : (ior - 1) / (ior + 1);  // its square is the reflectance
+    const double ior = layer_ior(m), r0 = endless ? 1 : (ior - 1) / (ior + 1);  // its square is the reflectance
     const float dielectric = 1 - metallic, transmission = endless ? 0 : static_cast<float>(m.transmission) * dielectric;
     Lobes lobes;
     lobes.emission = lobes.shining = m.emissive * opacity;
@@ -249,8 +248,8 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
         lobes.sums = facets.mean.sums, lobes.rise = reflectance(facets.mean.shares, rise);
         lobes.lean = facets.lean.sums, lobes.rise_lean = reflectance(facets.lean.shares, rise);
     } else {
-        const FacetSums facets = sums_of(lobes.alpha);
-        lobes.sums = facets.sums, lobes.rise = reflectance(facets.shares, dielectric_rise(ior));
+        const FacetsAndLayer facets = sums_of.with_layer(lobes.alpha, ior);
+        lobes.sums = facets.sums, lobes.rise = facets.rise;
     }
     if (m.iridescence > 0) {
         lobes.film = static_cast<float>(m.iridescence), lobes.film_ior = static_cast<float>(m.iridescence_ior), lobes.film_thickness = static_cast<float>(m.iridescence_thickness);
@@ -309,6 +308,18 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
 
 }  // namespace
 
+RoughnessTable::RoughnessTable(double ior) : ior_(ior) {
+    for (const FacetSums& facets : facet_sums_by_roughness()) rows_.push_back(facets_and_layer(facets, ior));
+}
+
+FacetsAndLayer RoughnessTable::at(double alpha) const { return row_at(rows_, std::sqrt(std::clamp(alpha, 0.0, 1.0))); }
+
+double layer_ior(const scene::PhysicalMaterial& material) {
+    // Of an infinite index the rise to grazing angles is nothing that an index says: as that of glass, which is near to Schlick's approximation.
+    constexpr double schlick_ior = 1.5;
+    return material.ior == 0 ? schlick_ior : material.ior;
+}
+
 std::vector<Lobes> compile(std::span<const scene::Material> materials) {
     struct {
         std::map<float, FacetSums> known;  // by alpha: many materials have the same
@@ -317,6 +328,7 @@ std::vector<Lobes> compile(std::span<const scene::Material> materials) {
             if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_facet_sums() : facet_sums(alpha);
             return sums->second;
         }
+        FacetsAndLayer with_layer(float alpha, double ior) { return facets_and_layer((*this)(alpha), ior); }
         static GrainSums with_grain(float along, float across) { return grain_sums(along, across); }
         static SheenSums of_sheen(float alpha) { return sheen_sums(alpha); }
     } sums_of;
@@ -328,13 +340,17 @@ std::vector<Lobes> compile(std::span<const scene::Material> materials) {
     return all;
 }
 
-Lobes compile(const scene::Material& material, const Lobes& whole) {
+Lobes compile(const scene::Material& material, const Lobes& whole, const RoughnessTable* table) {
     if (const auto* classic = std::get_if<scene::ClassicMaterial>(&material.model)) return compile_classic(*classic);
     struct {
+        const RoughnessTable* table;
         FacetSums operator()(float alpha) const { return alpha <= smoothest_alpha ? smooth_facet_sums() : tabled_facet_sums(alpha); }
+        FacetsAndLayer with_layer(float alpha, double ior) const {
+            return table && table->ior() == ior && alpha > smoothest_alpha ? table->at(alpha) : facets_and_layer((*this)(alpha), ior);
+        }
         static GrainSums with_grain(float along, float across) { return tabled_grain_sums(along, across); }
         static SheenSums of_sheen(float alpha) { return tabled_sheen_sums(alpha); }
-    } sums_of;
+    } sums_of{table};
     return compile_physical(std::get<scene::PhysicalMaterial>(material.model), sums_of, &whole);
 }
 

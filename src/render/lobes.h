@@ -131,9 +131,30 @@ struct Lobes {
 Lobes compile(const scene::Material& material);  // without its textures
 std::vector<Lobes> compile(std::span<const scene::Material> materials);  // sooner than one by one
 
+// What facets and the layer below them reflect, as Lobes has it.
+struct FacetsAndLayer {
+    SplitSums sums;
+    CosineTable<float> rise;
+};
+inline FacetsAndLayer between(const FacetsAndLayer& a, const FacetsAndLayer& b, float t) { return {between(a.sums, b.sums, t), between(a.rise, b.rise, t)}; }
+
+// That of each roughness, for a layer of one index: of a surface that is of another roughness everywhere. It is interpolated as tabled_facet_sums is, whose shares are many more numbers.
+class RoughnessTable {
+public:
+    explicit RoughnessTable(double ior);
+    double ior() const { return ior_; }
+    FacetsAndLayer at(double alpha) const;
+
+private:
+    double ior_;
+    std::vector<FacetsAndLayer> rows_;  // from a roughness of 0 to 1
+};
+
+double layer_ior(const scene::PhysicalMaterial& material);  // by which its layer's reflection rises to grazing angles
+
 // Of a material as its textures make it at one place. `whole`: the material without them, whose integrals over all directions hold where its roughness and its
-// index do; otherwise they are looked up, and what rough glass loses between its facets is not given back.
-Lobes compile(const scene::Material& material, const Lobes& whole);
+// index do; otherwise they are looked up, in `table` if it is of its index, and what rough glass loses between its facets is not given back.
+Lobes compile(const scene::Material& material, const Lobes& whole, const RoughnessTable* table);
 
 // Share of light that the smooth layer of a physical material's dielectric mirrors: what its mirrored ray weighs, its coverage and metal aside.
 float layer_mirrors(const Lobes& lobes, double cosine, bool inside);

@@ -162,7 +162,7 @@ double density_of_cosine(const MissingCells& cells, double cosine) {
     return share * cosine / (pi * (fourth_power((i + 1) / last) - fourth_power(i / last)));
 }
 
-FacetSums tabled_facet_sums(double alpha) {
+std::span<const FacetSums> facet_sums_by_roughness() {
     constexpr std::size_t steps = 128;
     static const std::vector<FacetSums> rows = [] {
         std::vector<FacetSums> all;
@@ -172,8 +172,10 @@ FacetSums tabled_facet_sums(double alpha) {
         }
         return all;
     }();
-    return row_at(rows, std::sqrt(std::clamp(alpha, 0.0, 1.0)));
+    return rows;
 }
+
+FacetSums tabled_facet_sums(double alpha) { return row_at(facet_sums_by_roughness(), std::sqrt(std::clamp(alpha, 0.0, 1.0))); }
 
 GrainSums tabled_grain_sums(double alpha_along, double alpha_across) {
     constexpr std::size_t roughnesses = 16, stretches = 8;

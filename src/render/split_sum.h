@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "render/cosine_table.h"
 
@@ -41,6 +42,7 @@ CosineTable<float> reflectance(const FacetShares& shares, const CosineTable<floa
 FacetSums facet_sums(double alpha);
 // The same from a table over perceptual roughness (the root of alpha), interpolated: within 0.002, and a thousand times as fast; for surfaces that are of another roughness everywhere.
 FacetSums tabled_facet_sums(double alpha);
+std::span<const FacetSums> facet_sums_by_roughness();  // the rows of that table, from a roughness of 0 to 1
 
 // Of a surface that is rougher along one of its directions than across, where they depend on the azimuth too: mean + lean * cos(2 azimuth), which is exact along and across, and
 // between them within 0.02.

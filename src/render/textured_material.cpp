@@ -132,6 +132,9 @@ TexturedMaterial::TexturedMaterial(const scene::Material& material) : material_(
         acts_.push_back({&binding.texture, field_of(binding.target), before && before->kind != TextureKind::vertex_color && same_places(*before, binding.texture), before && same_values(*before, binding.texture)});
         may_open_ = may_open_ || binding.target == "opacity";
     }
+    const auto* m = std::get_if<scene::PhysicalMaterial>(&material_.model);
+    const bool roughens = std::any_of(material_.textures.begin(), material_.textures.end(), [](const scene::TextureBinding& b) { return b.target == "roughness" || b.texture.kind == TextureKind::flakes; });
+    if (m && m->anisotropy == 0 && roughens) roughnesses_.emplace(layer_ior(*m));
 }
 
 template <class Model>
@@ -173,7 +176,7 @@ Lobes TexturedMaterial::lobes_of(Model model, const TexturePoint& point) const {
     } else if (acts_.empty()) {
         return whole_;
     }
-    Lobes lobes = compile(scene::Material{"", model, {}}, whole_);
+    Lobes lobes = compile(scene::Material{"", model, {}}, whole_, roughnesses_ ? &*roughnesses_ : nullptr);
     lobes.ambient_diffuse *= gray(occlusion);
     lobes.ambient_specular *= occlusion;
     return lobes;

@@ -1,6 +1,7 @@
 // Materials that are not the same all over: their lobes and normals at a place of a surface, by their textures and by where their grain runs.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "render/lobes.h"
@@ -47,6 +48,7 @@ private:
 
     scene::Material material_;
     Lobes whole_;            // without textures
+    std::optional<RoughnessTable> roughnesses_;  // if it is of many
     std::vector<Act> acts_;  // their textures are material_'s
     std::vector<scene::TextureBinding> relief_, coat_relief_, grain_;
     bool may_open_ = false, has_coat_ = false;

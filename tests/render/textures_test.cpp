@@ -316,6 +316,22 @@ TEST(Textures, TabledSplitSumsAreClose) {
     }
 }
 
+// So is what a table of one index says.
+TEST(Textures, TabledRoughnessIsThatOfTheSums) {
+    scene::PhysicalMaterial m;
+    m.ior = 1.7;
+    const Lobes whole = compile({"", m, {}});
+    const RoughnessTable table(layer_ior(m)), of_another_index(1.4);
+    Random random(6);
+    for (int i = 0; i < 50; ++i) {
+        m.roughness = random.uniform(0, 1);
+        const Lobes wanted = compile({"", m, {}}, whole, nullptr), looked_up = compile({"", m, {}}, whole, &table);
+        EXPECT_EQ(looked_up.sums, wanted.sums);
+        for (std::size_t k = 0; k < wanted.rise.size(); ++k) EXPECT_NEAR(looked_up.rise[k], wanted.rise[k], 1e-6) << m.roughness << " " << k;
+        EXPECT_EQ(compile({"", m, {}}, whole, &of_another_index).rise, wanted.rise);
+    }
+}
+
 TEST(Textures, ProceduresStayInRangeAndDoNotFlicker) {
     Random random(5);
     for (const TextureKind kind : {TextureKind::checker, TextureKind::noise, TextureKind::brushed, TextureKind::wood}) {
