@@ -43,8 +43,8 @@ Rgba bilinear(const Texture& t, int level, double u, double v) {
     const auto fx = static_cast<float>(x - x0), fy = static_cast<float>(y - y0);
     const int left = wrapped(x0, width, t.wrap_u), right = wrapped(x0 + 1, width, t.wrap_u);
     const int top = wrapped(y0, height, t.wrap_v), bottom = wrapped(y0 + 1, height, t.wrap_v);
-    return between(between(image.texel(level, left, top), image.texel(level, right, top), fx),
-                   between(image.texel(level, left, bottom), image.texel(level, right, bottom), fx), fy);
+    const auto [a, b, c, d] = image.texels(level, left, right, top, bottom);
+    return between(between(a, b, fx), between(c, d, fx), fy);
 }
 
 }  // namespace
@@ -55,7 +55,10 @@ Rgba filtered_image(const Texture& t, const TexturePlace& place, bool blurred) {
     constexpr double farthest = 1e9;
     const auto tame = [](double c) { return std::abs(c) < farthest ? c : 0; };
     const double u = tame(place.at.x), v = tame(place.at.y);
-    const auto texels = [&](const Vec3& axis) { return std::hypot(axis.x * image.width(), axis.y * image.height()); };
+    const auto texels = [&](const Vec3& axis) {
+        const double x = axis.x * image.width(), y = axis.y * image.height();
+        return std::sqrt(x * x + y * y);
+    };
     const double a = texels(place.axes[0]), b = texels(place.axes[1]);
     const Vec3& along = a > b ? place.axes[0] : place.axes[1];
     const double major = std::max(a, b);

@@ -120,25 +120,39 @@ TextureImage::Level TextureImage::coarser(const Level& fine) const {
     return level;
 }
 
+template <class Take>
+auto TextureImage::with_texels(const Level& level, Take&& take) const {
+    const auto n = static_cast<std::size_t>(channels_);
+    const auto by = [&]<Coding coding>() {
+        return take([&](std::size_t at) {
+            Rgba value;
+            value.r = sample<coding>(level, at, false);
+            if (n < 3) value.g = value.b = value.r;
+            else value.g = sample<coding>(level, at + 1, false), value.b = sample<coding>(level, at + 2, false);
+            if (n % 2 == 0) value.a = sample<coding>(level, at + n - 1, true);
+            return value;
+        });
+    };
+    switch (level.coding) {
+        case Coding::srgb8: return by.template operator()<Coding::srgb8>();
+        case Coding::linear8: return by.template operator()<Coding::linear8>();
+        case Coding::linear16: return by.template operator()<Coding::linear16>();
+        case Coding::float32: break;
+    }
+    return by.template operator()<Coding::float32>();
+}
+
 Rgba TextureImage::texel(int level_index, int x, int y) const {
     const Level& level = levels_[static_cast<std::size_t>(level_index)];
-    const auto n = static_cast<std::size_t>(channels_);
-    const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x)) * n;
-    const auto gathered = [&]<Coding coding>() {
-        Rgba value;
-        value.r = sample<coding>(level, at, false);
-        if (n < 3) value.g = value.b = value.r;
-        else value.g = sample<coding>(level, at + 1, false), value.b = sample<coding>(level, at + 2, false);
-        if (n % 2 == 0) value.a = sample<coding>(level, at + n - 1, true);
-        return value;
-    };
-    switch (level.coding) {  // once for all channels
-        case Coding::srgb8: return gathered.template operator()<Coding::srgb8>();
-        case Coding::linear8: return gathered.template operator()<Coding::linear8>();
-        case Coding::linear16: return gathered.template operator()<Coding::linear16>();
-        case Coding::float32: return gathered.template operator()<Coding::float32>();
-    }
-    return {};
+    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x);
+    return with_texels(level, [&](auto&& texel_at) { return texel_at(at * static_cast<std::size_t>(channels_)); });
+}
+
+std::array<Rgba, 4> TextureImage::texels(int level_index, int x0, int x1, int y0, int y1) const {
+    const Level& level = levels_[static_cast<std::size_t>(level_index)];
+    const auto n = static_cast<std::size_t>(channels_), width = static_cast<std::size_t>(level.width);
+    const std::size_t left = static_cast<std::size_t>(x0) * n, right = static_cast<std::size_t>(x1) * n, upper = static_cast<std::size_t>(y0) * width * n, lower = static_cast<std::size_t>(y1) * width * n;
+    return with_texels(level, [&](auto&& texel_at) { return std::array{texel_at(upper + left), texel_at(upper + right), texel_at(lower + left), texel_at(lower + right)}; });
 }
 
 std::size_t TextureImage::bytes() const {

@@ -45,6 +45,8 @@ public:
 
     // x and y within the level. Grey is all three colours; without alpha it is 1.
     Rgba texel(int level, int x, int y) const;
+    // Those of columns x0 and x1 in row y0, then in row y1.
+    std::array<Rgba, 4> texels(int level, int x0, int x1, int y0, int y1) const;
 
 private:
     enum class Coding : std::uint8_t { srgb8, linear8, linear16, float32 };
@@ -56,6 +58,9 @@ private:
     template <Coding coding>
     static float sample(const Level& level, std::size_t index, bool is_alpha);
     static float sample(const Level& level, std::size_t index, bool is_alpha);
+    // What take(texel_at) returns, where texel_at(index of its first sample) is a texel of the level: one look at the coding is enough for all of them.
+    template <class Take>
+    auto with_texels(const Level& level, Take&& take) const;
     Level coarser(const Level& fine) const;
 
     ImageSource source_;
