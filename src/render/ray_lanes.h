@@ -1,4 +1,4 @@
-// Eight rays that start at surfaces, made at once.
+// Eight rays, made at once.
 #pragma once
 
 #include <cstring>
