@@ -52,9 +52,9 @@ int whole_grid(const Tile& tile) {
     for (int step = 1; step <= coarsest_grid; step *= 2) {
         bool whole = true;
         for (int y = 0; whole && y <= tile.height; ++y) {
-            if (y % step && y != tile.height) continue;
+            if (!on_grid(y, tile.height, step)) continue;
             for (int x = 0; whole && x <= tile.width; ++x) {
-                if (x % step == 0 || x == tile.width) whole = tile.corner(x, y) != no_node;
+                if (on_grid(x, tile.width, step)) whole = tile.corner(x, y) != no_node;
             }
         }
         if (whole) return step;

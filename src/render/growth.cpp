@@ -17,7 +17,7 @@ using accel::Hit;
 using geometry::Ray;
 
 void camera_rays(const World& world, std::span<const LatticePoint> points, std::vector<Ray>& rays) {
-    rays.resize((points.size() + lane_count - 1) / lane_count * lane_count);
+    rays.resize(blocks_of(points.size()) * lane_count);
     for (std::size_t block = 0; block < points.size(); block += lane_count) {
         Lanes x, y;
         for (int i = 0; i < lane_count; ++i) {
@@ -113,7 +113,7 @@ void Growth::append() {
 
 // Collects what is needed to light the nodes, and to grow rays from them: points_.
 void Growth::gather(std::span<const std::uint32_t> nodes) {
-    points_room_.resize(std::max(points_room_.size(), (nodes.size() + lane_count - 1) / lane_count));
+    points_room_.resize(std::max(points_room_.size(), blocks_of(nodes.size())));
     std::size_t used = 0;
     int filled = lane_count;
     for (const std::uint32_t i : nodes) {
@@ -196,7 +196,7 @@ std::span<const Ray> Growth::child_rays(std::span<const Pending> pending) {
     parents_.clear();
     for (const Pending& p : pending) parents_.push_back(p.parent);
     gather(parents_);
-    rays_.resize((pending.size() + lane_count - 1) / lane_count * lane_count);
+    rays_.resize(blocks_of(pending.size()) * lane_count);
     for (std::size_t block = 0; block < points_.size(); ++block) {
         const PointLanes& p = points_[block];
         const Lanes cosine = dot(p.normal, p.viewer);

@@ -175,7 +175,7 @@ bool Growth::occluded_as_last(std::size_t light, std::uint8_t depth, const Ray& 
 }
 
 std::span<const Ray> Growth::shadow_rays(std::span<const std::uint32_t> nodes, std::size_t light) {
-    rays_.resize((nodes.size() + lane_count - 1) / lane_count * lane_count);
+    rays_.resize(blocks_of(nodes.size()) * lane_count);
     for (std::size_t block = 0; block < nodes.size(); block += lane_count) {
         Vec3Lanes position{};
         Lanes a{}, b{}, offset{};  // a, b: of the geometric normal

@@ -5,10 +5,6 @@
 namespace crescente::render {
 namespace {
 
-// Whether corner coordinate c of a tile with `extent` pixels is on the grid of this step, a power of two. The last one always is, so that every
-// grid covers the whole tile.
-bool on_grid(int c, int extent, int step) { return (c & (step - 1)) == 0 || c == extent; }
-
 // Calls visit(x, y) for the corners of the tile in small blocks, so that neighbours in a packet of rays are neighbours in the picture.
 template <class Visit>
 void for_each_corner(const Tile& tile, int step, Visit&& visit) {

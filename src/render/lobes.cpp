@@ -88,7 +88,8 @@ CosineTable<float> dielectric_rise(double ior) {
     return tabled_law([rise = fresnel_rise(ior)](double cosine) { return rise.at(cosine); });
 }
 
-FacetsAndLayer facets_and_layer(const FacetSums& facets, double ior) { return {facets.sums, reflectance(facets.shares, dielectric_rise(ior))}; }
+// rise: of the layer, as dielectric_rise gives it.
+FacetsAndLayer facets_and_layer(const FacetSums& facets, const CosineTable<float>& rise) { return {facets.sums, reflectance(facets.shares, rise)}; }
 
 CosineTable<float> coat_reflectances(const FacetShares& shares) {
     return reflectance(shares, tabled_law([](double cosine) { return fresnel_dielectric(cosine, coat_ior); }));
@@ -309,7 +310,8 @@ Lobes compile_physical(const scene::PhysicalMaterial& m, SumsOf&& sums_of, const
 }  // namespace
 
 RoughnessTable::RoughnessTable(double ior) : ior_(ior) {
-    for (const FacetSums& facets : facet_sums_by_roughness()) rows_.push_back(facets_and_layer(facets, ior));
+    const CosineTable<float> rise = dielectric_rise(ior);
+    for (const FacetSums& facets : facet_sums_by_roughness()) rows_.push_back(facets_and_layer(facets, rise));
 }
 
 FacetsAndLayer RoughnessTable::at(double alpha) const { return row_at(rows_, std::sqrt(std::clamp(alpha, 0.0, 1.0))); }
@@ -328,7 +330,7 @@ std::vector<Lobes> compile(std::span<const scene::Material> materials) {
             if (unknown) sums->second = alpha <= smoothest_alpha ? smooth_facet_sums() : facet_sums(alpha);
             return sums->second;
         }
-        FacetsAndLayer with_layer(float alpha, double ior) { return facets_and_layer((*this)(alpha), ior); }
+        FacetsAndLayer with_layer(float alpha, double ior) { return facets_and_layer((*this)(alpha), dielectric_rise(ior)); }
         static GrainSums with_grain(float along, float across) { return grain_sums(along, across); }
         static SheenSums of_sheen(float alpha) { return sheen_sums(alpha); }
     } sums_of;
@@ -346,7 +348,7 @@ Lobes compile(const scene::Material& material, const Lobes& whole, const Roughne
         const RoughnessTable* table;
         FacetSums operator()(float alpha) const { return alpha <= smoothest_alpha ? smooth_facet_sums() : tabled_facet_sums(alpha); }
         FacetsAndLayer with_layer(float alpha, double ior) const {
-            return table && table->ior() == ior && alpha > smoothest_alpha ? table->at(alpha) : facets_and_layer((*this)(alpha), ior);
+            return table && table->ior() == ior && alpha > smoothest_alpha ? table->at(alpha) : facets_and_layer((*this)(alpha), dielectric_rise(ior));
         }
         static GrainSums with_grain(float along, float across) { return tabled_grain_sums(along, across); }
         static SheenSums of_sheen(float alpha) { return tabled_sheen_sums(alpha); }

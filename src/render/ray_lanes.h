@@ -1,6 +1,7 @@
 // Eight rays, made at once.
 #pragma once
 
+#include <cstddef>
 #include <cstring>
 
 #include "geometry/ray.h"
@@ -10,6 +11,9 @@
 namespace crescente::render {
 
 using namespace math;
+
+// Blocks of eight lanes for so many; the last may not be full.
+inline std::size_t blocks_of(std::size_t count) { return (count + lane_count - 1) / lane_count; }
 
 // Starts on the side of `direction` of a surface, clear of it.
 inline Vec3Lanes starts(const Vec3Lanes& position, const Vec3Lanes& geometric_normal, const Lanes& offset, const Vec3Lanes& direction) {

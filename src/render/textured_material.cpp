@@ -121,7 +121,6 @@ TexturedMaterial::TexturedMaterial(const scene::Material& material) : material_(
             return static_cast<std::size_t>(std::find_if(table.begin(), table.end(), [&](const auto& f) { return f.info.name == target; }) - table.begin());
         }, material_.model);
     };
-    if (const auto* m = std::get_if<scene::PhysicalMaterial>(&material_.model)) has_coat_ = m->clearcoat > 0;
     for (const scene::TextureBinding& binding : material_.textures) {
         std::vector<scene::TextureBinding>* list = binding.target == "normal" || binding.target == "bump" ? &relief_ : binding.target == "clearcoat_normal" ? &coat_relief_ : binding.target == "grain" ? &grain_ : nullptr;
         if (list) {
@@ -133,8 +132,10 @@ TexturedMaterial::TexturedMaterial(const scene::Material& material) : material_(
         may_open_ = may_open_ || binding.target == "opacity";
     }
     const auto* m = std::get_if<scene::PhysicalMaterial>(&material_.model);
+    if (!m) return;
+    has_coat_ = m->clearcoat > 0;
     const bool roughens = std::any_of(material_.textures.begin(), material_.textures.end(), [](const scene::TextureBinding& b) { return b.target == "roughness" || b.texture.kind == TextureKind::flakes; });
-    if (m && m->anisotropy == 0 && roughens) roughnesses_.emplace(layer_ior(*m));
+    if (m->anisotropy == 0 && roughens) roughnesses_.emplace(layer_ior(*m));
 }
 
 template <class Model>

@@ -14,7 +14,7 @@ export class Program {
   private constructor(private readonly child: ChildProcess, readonly address: string) {}
 
   static start(options: string[]): Promise<Program> {
-    const child = spawn(crescente, ['view', '--no-browser', ...options], { stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, XDG_STATE_HOME: state, XDG_CACHE_HOME: state, XDG_DATA_HOME: state } });
+    const child = spawn(crescente, ['view', '--no-browser', ...options], { stdio: ['ignore', 'pipe', 'pipe'], env: { ...process.env, TMPDIR: state, XDG_STATE_HOME: state, XDG_CACHE_HOME: state, XDG_DATA_HOME: state } });
     return new Promise((found, failed) => {
       let said = '';
       child.stdout?.on('data', (data) => {

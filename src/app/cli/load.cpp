@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <future>
-#include <iterator>
+#include <optional>
 
 #include "io/overrides.h"
 #include "io/panorama_file.h"
@@ -90,23 +90,24 @@ Expected<io::Loaded> load(const SceneRequest& request, const io::ReadOptions& op
     reading.texture_pattern = request.texture_pattern;
     std::future<Surroundings> surroundings = surroundings_of(request);
     auto loaded = io::read_scene(request.file, reading);
-    Surroundings around;
+    std::optional<Surroundings> around;
     if (surroundings.valid()) around = surroundings.get();
     if (!loaded) {
-        if (!around.warnings) std::move(around.warnings.error().problems.begin(), around.warnings.error().problems.end(), std::back_inserter(loaded.error().problems));
+        Problems& problems = loaded.error().problems;
+        if (around && !around->warnings) problems.insert(problems.end(), around->warnings.error().problems.begin(), around->warnings.error().problems.end());
         return loaded;
     }
     scene::Scene& scene = loaded->scene;
 
     for (const auto& [field, value] : request.settings) field->set(scene.settings, value);
-    if (request.environment || request.sky) {
-        if (!around.warnings) return tl::unexpected<Error>(std::move(around.warnings.error()));
-        loaded->warnings.insert(loaded->warnings.end(), around.warnings->begin(), around.warnings->end());
+    if (around) {
+        if (!around->warnings) return tl::unexpected<Error>(std::move(around->warnings.error()));
+        loaded->warnings.insert(loaded->warnings.end(), around->warnings->begin(), around->warnings->end());
         if (!scene.environment) scene.environment.emplace();
         if (request.sky) scene.environment->rotation = 0, scene.environment->intensity = 1;
-        scene.environment->image = std::move(around.environment.image);
-        scene.environment->sky = std::move(around.environment.sky);
-        scene.environment->panorama = std::move(around.environment.panorama);
+        scene.environment->image = std::move(around->environment.image);
+        scene.environment->sky = std::move(around->environment.sky);
+        scene.environment->panorama = std::move(around->environment.panorama);
     }
     const auto applied = apply_overrides(request.overrides, scene);
     if (!applied) return tl::unexpected<Error>(applied.error());
